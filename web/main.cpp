@@ -108,7 +108,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
 int run(const ServiceArguments& arguments) {
     Result<WebSetup> setup = load_web_setup(*arguments.config);
     if (!setup) return complain(program, setup.error());
-    // The unit's StateDirectory.
+    // systemd sets STATE_DIRECTORY if the unit has a StateDirectory.
     if (const char* state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state == '/')
         setup->numbers = std::filesystem::path(state) / "times";
     if (!arguments.check) return serve(*setup, *arguments.config);

@@ -73,7 +73,7 @@ bool is_path_prefix(std::string_view prefix) {
     });
 }
 
-// Bucket names as in S3: 3 to 63 small letters, digits, "-" and ".".
+// Returns true for the name of an S3 bucket: 3 to 63 small letters, digits, "-" and ".".
 bool is_bucket_name(std::string_view name) {
     return name.size() >= 3 && name.size() <= 63 && is_letter_or_digit(name.front()) &&
            is_letter_or_digit(name.back()) && name.find("..") == name.npos &&
@@ -175,7 +175,7 @@ void read_addresses(TomlTable& web, WebConfig& config) {
     }
 }
 
-// The path of a data set becomes part of addresses: segments of letters, digits and "-._".
+// Reads a data set. Its path, a part of addresses, has segments of letters, digits and "-._".
 void read_collection(TomlTable& table, ThreddsConfig& config) {
     ConfiguredCollection collection;
     collection.path = table.text("path").value_or("");

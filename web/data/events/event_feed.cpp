@@ -19,12 +19,12 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::seconds tick_every{1};
-// If a grid of a station came this recently, its database is not asked.
+// If a grid of a station came this recently, the station's database is not queried.
 constexpr std::chrono::seconds grids_speak_for{30};
 // Shortest time between two queries of one station's database.
 constexpr std::chrono::seconds ask_every{5};
-// A file shows a commit before readers see it, because SQLite writes the log, waits for the disk,
-// and then publishes the commit. So each change is queried twice.
+// A database file changes before readers see the commit, because SQLite writes the log, waits for
+// the disk, and then publishes the commit. So the database is queried twice for each change.
 constexpr int asks_for_a_change = 2;
 // If more changes than these wait, drop them and have clients request everything again.
 constexpr std::size_t most_changes_waiting = 20'000;

@@ -22,7 +22,8 @@ using EventJson = nlohmann::ordered_json;
 constexpr std::size_t most_told_remembered = 4;  // of each domain and moment
 constexpr std::size_t most_times_listed = 32;
 
-// "living: 5 sweeps have come, 9 of the last volume stand" (pipeline/ingest/show_living.cpp).
+// The numbers in the note of a living grid, such as "living: 5 sweeps have come, 9 of the last
+// volume stand" (pipeline/ingest/show_living.cpp).
 struct LivingCounts {
     int came = 0, standing = 0;
 };
@@ -161,7 +162,7 @@ void GridEvents::add_evicted(const Place& place, std::vector<UtcTime> times, Utc
                  {"count", times.size()},
                  {"from", format_utc(times.front())},
                  {"to", format_utc(times.back())}});
-    // For more times, `from` and `to` say where to look.
+    // List the times if they are few; otherwise `from` and `to` must do.
     if (times.size() <= most_times_listed) {
         json["grids"] = EventJson::array();
         for (const UtcTime time : times)

@@ -57,7 +57,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
     const auto ours = std::make_shared<Making>();
     {
         const MutexLock lock(mutex_);
-        // Another thread may have made it since.
+        // Another thread may have made the value since the call of find().
         if (const Kept* found = kept_.find(key)) return *found;
         if (const auto other = making_.find(key); other != making_.end()) {
             const std::shared_ptr<Making> theirs = other->second;

@@ -56,11 +56,11 @@ struct PackedHeader {
     std::uint32_t part = 0;       // PackedPart
     std::uint32_t halved = 0;     // number of halvings of columns and rows
     std::uint32_t halved_by = 0;  // 0 not halved, 1 maximum, 2 mean
-    // Bit 0: the volume is partial; bit 1: the grid is provisional; bit 2: the codes are those of
-    // values alone.
+    // Bit 0: the volume is partial; bit 1: the grid is provisional; bit 2: only cells with values
+    // have codes.
     std::uint32_t flags = 0;
     std::uint32_t first_brick = 0, end_brick = 0;      // the bricks whose states and codes follow
-    std::uint32_t first_states = 0, states_count = 0;  // numbers as in the table
+    std::uint32_t first_states = 0, states_count = 0;  // blocks, numbered as in the table
     std::uint32_t first_codes = 0, codes_count = 0;
     std::uint32_t site_count = 0, table_count = 0;
     std::uint64_t levels_offset = 0;  // nz doubles; 0: absent, as for the other offsets
@@ -142,8 +142,8 @@ struct PackedSource {
     grid::BrickView view;
     std::uint64_t id = 0;
     std::uint32_t halved = 0, halved_by = 0;
-    // If true, the whole grid has states of all bricks that are not uniform, and codes of values
-    // only.
+    // If true, a whole grid has the states of all bricks that are not uniform, but codes only of
+    // cells with values.
     bool values_alone = false;
 };
 

@@ -181,8 +181,8 @@ OpenedRawOrMissing RawOpener::open(const CatalogReader& catalog, const CatalogEn
         if (Status same = check_hash(entry, *file, facts); !same) return missing(same.error());
         return OpenedRaw{file, size_bytes, modified, settled_tag(entry.content_hash, size_bytes)};
     }
-    // The check for links misses a hard link to a file that only the server may read, and a growing
-    // file has no hash yet that could tell it apart.
+    // Refuse a file with a second name: it may be a hard link to a file that only the server may
+    // read, and a growing file has no hash yet that would show this.
     if (facts.st_nlink > 1 || size_bytes < entry.size_bytes) {
         return missing(RawMissing::changed,
                        entry.path.native() + ": was cut, or has a second name, while it grows");

@@ -59,11 +59,11 @@ inline constexpr std::size_t times_of_a_chunk = 4096;
 [[nodiscard]] ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
                                    std::size_t times);
 
-// Version 2: .zarray, .zattrs and .zmetadata; ".zgroup" is {"zarr_format": 2}.
+// Return the documents of version 2, except .zgroup, which is {"zarr_format": 2}.
 [[nodiscard]] ZarrJson zarray_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zattrs_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zmetadata_of(const ZarrGroup& group);
-// Version 3: zarr.json of an array and of the group.
+// Return the document zarr.json of version 3, for an array and for the group.
 [[nodiscard]] ZarrJson zarr3_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zarr3_of(const ZarrGroup& group);
 

@@ -1,7 +1,8 @@
 // web/doors/zarr/zarr.h -- grids over time as Zarr arrays (docs/web/zarr.md).
 //
-//   /zarr                     the groups, as JSON /zarr/DOMAIN/MOMENT/...   a group in version 2 of
-//   the format, with consolidated metadata /zarr3/DOMAIN/MOMENT/...  a group in version 3
+//   /zarr                      the groups, as JSON
+//   /zarr/DOMAIN/MOMENT/...    a group in version 2 of the format, with consolidated metadata
+//   /zarr3/DOMAIN/MOMENT/...   a group in version 3
 //
 // Chunks are made on request and kept. A chunk of an evicted grid gets 404, the protocol's answer
 // for a missing chunk; readers then use the fill value, which means "unavailable" in the array of
