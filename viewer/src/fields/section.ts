@@ -1,5 +1,5 @@
 // Cuts a vertical section along the geodesic between two places, as render/products/section.h does. Values are bilinear
-// between columns and linear between levels; the status rule decides the state.
+// between columns and linear between levels; the status rule (status_rule.ts) decides the state.
 
 import { heightRange } from '../camera/geometry';
 import { Place, Plane, cellSizeM, destination, geodesic, planeOf } from '../earth/projection';

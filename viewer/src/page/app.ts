@@ -71,7 +71,7 @@ export class App {
     readonly playback = new Playback(this);
     readonly news = new News(this);
     choices = 0; // counts choices of a domain and moment, to recognize answers to an older choice
-    askedMoment = ''; // last argument of choose(), which the server may not have
+    askedMoment = ''; // moment of the last call of choose(); the server may not have it
     private askedDomain = '';
     unreadTime = timeThatIsNone(); // time parameter of the address if it is not a time
     private heard = new Map<Happening, (() => void)[]>();

@@ -234,7 +234,7 @@ export class Drawing {
         else if (!this.isFinal && this.isComplete) this.end(shown, rung, ms, fetches);
     }
 
-    // Reports how the complete picture was drawn, and carries out the wish.
+    // Reports how the complete picture was drawn. If no bricks are missing, carries out the action in `wish`.
     private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
         const { app } = this;
         this.isFinal = true;

@@ -24,8 +24,8 @@ const widths: Record<MapLines['kind'], number> = {
     border: 1,
 };
 
-// Each corner of a segment's strip has both ends of the segment. Instances would need less memory, but if the processor
-// draws, beginning an instance takes as long as drawing hundreds of corners.
+// Each corner of a segment's strip has both ends of the segment. Instances would need less memory, but without a
+// graphics processor, beginning an instance takes as long as drawing hundreds of corners.
 const cornersASegment = 4;
 const triangles = [0, 1, 2, 1, 3, 2];
 

@@ -21,7 +21,7 @@ export interface ViewState {
     opacity: number;
     least: number | null; // values below it are not shown
     colors: string; // name of a table; empty: the moment's own table
-    quality: string; // name of a rung of the ladder; empty: the page chooses the rung
+    quality: string; // name of a way of drawing (renderer/ladder.ts); empty: the page chooses one
     memoryMib: number; // memory for grids; read when the page is opened
     countsFetches: boolean; // the page counts the texels that a pixel asks for
     drafts: Draft[]; // tables that the user made, at most one for each moment; they override `colors`

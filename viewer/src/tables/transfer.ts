@@ -28,9 +28,9 @@ export interface Bins {
     width: number;
 }
 
-// Chooses the bins of values for a table. The smallest distance between two stops is a whole number of bins, so that
-// the stops of an evenly spaced table begin bins. With a threshold `least`, bins are chosen as for a table that begins
-// at the threshold. The table of a saved file does (draft.ts).
+// Chooses the bins of values for a table. Unless two stops are closer than the narrowest bin, their smallest distance is
+// a whole number of bins, so that the stops of an evenly spaced table begin bins. With a threshold `least`, bins are
+// chosen as for a table that begins at the threshold, as the table of a saved file does (draft.ts).
 export function chooseBins(table: ColorTable, least = -Infinity): Bins {
     const { extinction } = table;
     const all = table.stops.map((stop) => stop.from);

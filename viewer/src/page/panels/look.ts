@@ -51,7 +51,7 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
     slider('exaggeration', (value) => (app.state.exaggeration = value));
 }
 
-// Adds the list of rungs of the ladder. Its first entry lets the page choose the rung.
+// Adds the list of rungs (ways of drawing; renderer/ladder.ts). With its first entry, the page chooses the rung.
 function addQuality(app: App): void {
     const select = element<HTMLSelectElement>('quality');
     select.append(

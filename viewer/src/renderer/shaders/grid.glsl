@@ -1,7 +1,7 @@
 // Steps rays through the cells of a grid, whose bricks of 16 x 16 x 16 cells are scattered over a texture, the atlas.
 //
-// If the processor runs a program, each read of a uniform costs a check, and all branches of a condition are run. So
-// the programs read uniforms before loops, and have few conditions.
+// Without a graphics processor, each read of a uniform costs a check, and all branches of a condition are run. So the
+// programs read uniforms before loops, and have few conditions.
 uniform sampler3D atlas;
 // An entry for each brick (atlas/atlas.ts). 21 bits have the slot + 1, or 0 without a slot; 3 bits have the halvings of
 // the brick in the slot; 8 bits have the greatest shown code. Without a slot, the 3 bits have the distance in columns
