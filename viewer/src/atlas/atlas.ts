@@ -10,7 +10,7 @@ import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
 
 export const paddedEdge = 18;
 
-// Packs a word of the indirection (see Atlas). `greatest` is the greatest shown code that a sample in the brick can use.
+// Packs an indirection word (see Atlas). `greatest` is the greatest shown code that a sample in the brick can use.
 export function pageEntry(slot: number, greatest: number, halvings: number): number {
     return ((greatest << 24) | (halvings << 21) | (slot + 1)) >>> 0;
 }
