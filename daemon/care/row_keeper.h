@@ -21,7 +21,7 @@ namespace stormcellar::daemon {
 
 class RowKeeper {
   public:
-    static constexpr int rest = 10;  // it rests this many times as long as it worked
+    static constexpr int rest = 10;  // the keeper rests this many times as long as it worked
     static constexpr std::chrono::hours between_deletions{1};
 
     // The worker thread reads `clock` to measure how long the work takes.

@@ -1,7 +1,7 @@
 // daemon/service/ingest_sink.h -- the real sink: catalog, grids and cache through
 // pipeline/ingest/ingest.h.
 //
-// Threads   Those of Sink.
+// Threads   Several workers call take() at once, but never for the same path (daemon/queue/sink.h).
 #pragma once
 
 #include <atomic>

@@ -21,7 +21,7 @@ struct MachineFacts {
     std::uint64_t refused = 0;            // files that are damaged or not a partial of a mosaic
     std::uint64_t replaced = 0;           // partials of other machines that its partials replaced
     bool is_late = false;
-    std::string why = {};           // why it is late; empty: it is not
+    std::string why = {};           // why the machine is late; empty: it is not late
     std::string last_problem = {};  // names its directory or a file; empty: none
     bool operator==(const MachineFacts&) const = default;
 };

@@ -64,7 +64,7 @@ class StatusServer::Worker {
 
     // Opens the addresses that should be open and are not.
     void open(SteadyTime now);
-    // Returns why an address is not served; empty: all are.
+    // Returns why an address is not served; empty if all addresses are served.
     [[nodiscard]] std::string unanswered() const;
     void wait(SteadyTime now, const WakeUp& wake_up);
     void turn(SteadyTime now);
