@@ -76,8 +76,8 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
-// Handles a plan for a product other than a volume. Returns an error, unless the plan is a scene
-// file's whose volume was replaced by --product; such a plan is ignored.
+// Handles a plan for a product other than a volume. Ignores the plan of a scene file whose volume
+// was replaced by --product. Returns an error for any other plan.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(

@@ -36,7 +36,7 @@ struct PlacedSweep {
 };
 
 // Decodes the one file that the options name. With a scene, it decodes only the cuts that the scene
-// may show. If the pattern of the volume does not tell these cuts, it decodes all. Errors:
+// may show, or all cuts if the volume's pattern does not identify these. Errors:
 // bad_argument for several files and for options; those of load_volume().
 [[nodiscard]] Result<SweptVolume> read_sweeps(GridOptions options, const render::Scene* shown);
 // Decodes a volume of the catalog, with the cuts that read_sweeps() would decode.
