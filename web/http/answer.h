@@ -96,7 +96,7 @@ struct Entity {
     std::string etag;  // with its quotes; empty: none
     std::optional<UtcTime> modified;
     std::string coding;  // Content-Encoding; empty: none
-    // Time for which a client may use it without asking; none: it must always ask ("no-cache").
+    // Time for which a client may reuse the content; none: it must revalidate it ("no-cache").
     std::optional<std::chrono::seconds> max_age;
     bool never_changes = false;  // adds "immutable"
     bool varies = false;         // by Accept-Encoding

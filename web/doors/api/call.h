@@ -150,7 +150,7 @@ struct AskedRegion {
 // Answers a request for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 
-// Answers with JSON. Clients must ask again each time and get 304 if the JSON has not changed.
+// Answers with JSON. Clients must revalidate each use, and get 304 if the JSON has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
 // Returns the mark by which an operation says that it would compute for long. The server never
 // sends this answer.

@@ -1,6 +1,6 @@
 // web/doors/api/door.h -- the JSON API below /api/v1.
 //
-// Threads   As Door.
+// Threads   Many threads may use it.
 // Errors    404 for a path without an operation, 400 for a parameter that the operation does not
 //           have, else as the operation says.
 #pragma once

@@ -8,7 +8,7 @@
 // and the kernel's buffer of its socket. If an event leaves the ring of the newest events before
 // the client has read it, the event is lost and the client gets a reset.
 //
-// Threads   As Door.
+// Threads   Many threads may use it.
 // Errors    400 for a parameter that makes no sense, 404 below the path, 503 if too many streams
 //           are open, in all or for one client.
 #pragma once

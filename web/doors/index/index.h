@@ -11,7 +11,7 @@
 //                                             without "http://"
 //   {{bucket}} {{version}}                    the bucket of "/s3", and the version of the program
 //
-// Threads   As Door.
+// Threads   Many threads may use it.
 // Errors    404 for every other path.
 #pragma once
 

@@ -1,7 +1,7 @@
 // web/doors/metrics/metrics.h -- /metrics: the server's counters and gauges for Prometheus
 // (docs/web/metrics.md).
 //
-// Threads   As Door.
+// Threads   Many threads may use it.
 // Errors    404 below the path.
 #pragma once
 

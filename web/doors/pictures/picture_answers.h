@@ -31,7 +31,7 @@ using Found = tl::expected<Value, Answer>;
                                                                 std::string_view time);
 
 // Answers with a picture that depends only on its address and the grid's bytes; its notes are its
-// media type. A client may use it for `max_age` without asking again; none: it must ask each time.
+// media type. A client may reuse the picture for `max_age`; none: it must revalidate each use.
 [[nodiscard]] Answer picture_answer(const Request& request, const Kept& picture,
                                     std::optional<std::chrono::seconds> max_age);
 // Returns 304 if the client has the picture with this tag; none otherwise.
@@ -39,9 +39,9 @@ using Found = tl::expected<Value, Answer>;
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// Time for which clients may use an answer that depends only on a grid without asking again.
+// Time for which clients may reuse an answer that depends only on a grid, without revalidating it.
 inline constexpr std::chrono::seconds answer_holds_for{300};
-// Returns `answer_holds_for`, or none (ask each time) for a grid that was requested as "latest" or
+// Returns `answer_holds_for`, or none (revalidate) for a grid that was requested as "latest" or
 // that may change.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
                                                              const OpenGrid& grid);

@@ -40,7 +40,7 @@ class WmsDoor final : public Door {
     struct TimedPicture {
         MapPicture picture;
         Fields warnings;
-        std::optional<std::chrono::seconds> max_age;  // none: ask each time
+        std::optional<std::chrono::seconds> max_age;  // none: clients must revalidate each use
     };
     using FindGrid = std::function<WmsRead<std::shared_ptr<const OpenGrid>>(
         const std::string& domain, level2::Moment moment, UtcTime time)>;
