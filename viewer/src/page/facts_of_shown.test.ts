@@ -17,7 +17,7 @@ Object.assign(globalThis, {
         ),
 });
 
-// 2026-11-28: after one failed answer, the pointer never told the beam, and a region never told its volumes.
+// 2026-11-28: after one failed answer, the page never showed the beam at the pointer, nor the volumes of a region.
 test('facts are asked for again after a failure', async () => {
     const { FactsOfShown } = await import('./facts_of_shown');
     for (const domain of ['KBGM', 'region:-100,33,-95,37']) {

@@ -4,7 +4,7 @@ import { NamedView, dragged, namedView, usualFieldOfViewDeg, zoomed } from '../c
 import { App } from './app';
 import { Drawing } from './drawing';
 
-const keyStep = 20; // an arrow acts like a drag by so many pixels
+const keyStep = 20; // an arrow acts like a drag by this many pixels
 const farther = 2; // factor for keys that move the scene
 
 export class Keys {

@@ -80,7 +80,7 @@ export class LayerMaker {
     private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
     private numbers = new WeakMap<LoadedGrid, number>();
     private mostNumber = 0;
-    private toldSweep = ''; // key of the sweep that layerCame() last told of
+    private toldSweep = ''; // key of the sweep for which layerCame() was last called
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // key of the sweep that is being loaded
     layerCame: () => void = () => undefined; // called when a layer has come or failed, so that told() has changed
@@ -253,7 +253,7 @@ export class LayerMaker {
             if (!isAbsent(error)) this.askLater();
         }
     }
-    // Has another picture drawn later. Drawing it asks again for what failed.
+    // Causes another picture later. To draw it, the page asks again for the data that failed.
     private askLater(): void {
         window.setTimeout(this.came, againAfterMs + 1);
     }
@@ -279,7 +279,7 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
-    // Returns a sentence if nothing of the volume is visible. The sentence tells from which value on echo is visible.
+    // Returns a sentence if nothing of the volume is visible. The sentence names the least visible value.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
         const { state, shownTable: table } = this.app;
         const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';

@@ -96,7 +96,7 @@ test('three pages of a browser listen, and the others ask for lists', async () =
     );
 });
 
-// 2026-11-28: the fourth page of a browser did not tell that the server hung, and looked live.
+// 2026-11-28: the fourth page of a browser did not say that the server hung, and looked live.
 test('a page without a stream tells that the server hangs', async () => {
     await pause(3500); // the pages of the test above listen again
     server.isUp = true;

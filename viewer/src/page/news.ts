@@ -30,7 +30,7 @@ export class News {
         if (isRegion(state.domain)) return this.takeNewsOfSite(undefined);
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
-    // Takes a new list of times. If the time that the user looks at was evicted, goes to the nearest time and tells so.
+    // Takes a new list of times. If the time that the user looks at was evicted, goes to the nearest time and says so.
     // If the user asked for a time that was missing, goes to the time that is now nearest to the missing time.
     private takeNewTimes(stored: string[]): void {
         const { app } = this;

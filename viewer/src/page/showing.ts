@@ -10,7 +10,7 @@ import { App, Shown } from './app';
 import { Loader } from './loader';
 import { texts } from './texts';
 
-export const soonTimes = 500; // the page asks first for so many of the newest times
+export const soonTimes = 500; // the page asks first for this many of the newest times
 export const mostTimes = 10000; // most times in an answer of the server
 
 export class Showing {

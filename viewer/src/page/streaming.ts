@@ -14,7 +14,7 @@ import { Decoder } from '../atlas/decoder';
 
 const mostFlights = 5; // a browser has six connections to a server, and one is for events
 const mostRequestBytes = 1024 * 1024; // most uncompressed bytes of a request
-const mostPlannedBytes = 4 * mostRequestBytes; // requests are chosen from missing columns of about so many bytes
+const mostPlannedBytes = 4 * mostRequestBytes; // requests are chosen from missing columns of about this many bytes
 const mostSkippedBytes = 64 * 1024; // most bytes between two needed columns of a request
 const retryMs = 1000;
 const mostFailures = 5; // consecutive failures before an error is shown

@@ -5,7 +5,7 @@ import { Plane } from '../earth/projection';
 import { make } from './dom';
 
 const cellsAcross = 1024;
-const farthest = 1e5; // points farther away than so many cells are moved to this distance
+const farthest = 1e5; // distance in cells to which points that are farther away are moved
 
 // Paints the ground within `halfXM` to the east and west of the middle, and within `halfYM` to the north and south.
 export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, halfYM: number): WaterMask {

@@ -22,7 +22,7 @@ import { WaterMask, WaterTexture } from './water_texture';
 export interface Frame {
     geometry: ViewGeometry;
     slices: number;
-    grain: number; // the picture is enlarged so many times along each side
+    grain: number; // the picture is enlarged this many times along each side
     isNearest: boolean; // cells are not interpolated
     opacity: number;
     table: ColorTable;

@@ -12,7 +12,7 @@ export interface HeightAxis {
 
 const leastPixels = 45;
 const leastBetween = 22;
-const parts = 32; // the axis over the whole box has so many parts; parts outside of the picture are not drawn
+const parts = 32; // number of parts of the axis over the whole box; parts outside of the picture are not drawn
 const steps = [1, 2, 5, 10, 20, 50];
 
 // Returns the axis over a place of the ground, up to the top of the box or the edge of the picture; null if it is too

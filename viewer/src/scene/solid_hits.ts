@@ -101,7 +101,7 @@ export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit
     return best;
 }
 
-const steps = 400; // the ray is divided into so many steps to find the step that crosses the beam
+const steps = 400; // number of steps of the ray, among which the step that crosses the beam is found
 const halvings = 30; // number of times that this step is halved
 const beyondM = 1000; // margin of the box below the lowest gate and above the highest
 

@@ -28,7 +28,7 @@ export class Hover {
 
     begin(): void {
         this.app.on(['choices', 'camera', 'map'], () => this.hide());
-        // Read each new picture, so that the box tells what is drawn.
+        // Read each new picture, so that the box always describes the drawn picture.
         this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
         this.drawing.picture.addEventListener('pointerdown', () => this.hide());
@@ -95,9 +95,9 @@ export class Hover {
                   )
                 : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
-        // Tell no height of range folded air, because the ray may cross it at many heights.
+        // Give no height for range folded air, because the ray may cross such air at many heights.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
-        // Tell the height of a column maximum only if it has a value and its cells are not halved.
+        // Give the height of a column maximum only if there is a value and the cells are not halved.
         const isAtOne = layer !== 'maximum' || (picked.halvings === 0 && state === CellState.value);
         const lines = [isAtOne ? words.value(told, heightText(heightM, units)) : told];
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
@@ -106,7 +106,7 @@ export class Hover {
         return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
     }
 
-    // Returns the time of day. Tells no age, because the text may stay on the page.
+    // Returns the time of day. It is not an age, because the text may stay on the page.
     private when(timeMs: number): string {
         return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }

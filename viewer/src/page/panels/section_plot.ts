@@ -1,4 +1,4 @@
-// Plots the section over distance and height, and tells the value under the pointer.
+// Plots the section over distance and height, and shows the value under the pointer.
 
 import { Section, cutSection, greatestOf } from '../../fields/section';
 import { shades } from '../../renderer/shades';

@@ -126,7 +126,7 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     const askRaw = () => void (element('settings').hidden || raw.ask().catch(() => undefined));
     element('open').addEventListener('click', askRaw);
     app.on('shown', askRaw);
-    // Marks the button as disabled if no command draws the view. A press then tells the reason.
+    // Marks the button as disabled if no command draws the view. A press then shows the reason.
     const mark = () => element('command').setAttribute('aria-disabled', String(whyNoCommand(app, drawing) !== ''));
     app.on(['view', 'shown', 'choices', 'cells'], mark);
     drawing.pictureChanged.push(mark);

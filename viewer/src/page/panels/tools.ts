@@ -96,7 +96,7 @@ export class ToolsPanel {
 
     // Returns the raw files of the shown grid, as far as the server offers them. For a region, these are the files of
     // the volumes in the grid. For a frame between volumes, this is the file of the volume before the frame. If the
-    // facts of the grid do not come, tells the error and returns null.
+    // facts of the grid do not come, shows the error and returns null.
     private async rawFiles(): Promise<RawFile[] | null> {
         const { shown } = this.app;
         if (!shown) return [];

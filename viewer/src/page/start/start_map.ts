@@ -25,10 +25,10 @@ import { PlaceList, ListedPlace, listedStation } from './place_list';
 import { StartData } from './start_data';
 import { Tiles } from './tiles';
 
-const reach = 28; // a pointer chooses a station within so many pixels
+const reach = 28; // a pointer chooses a station within this many pixels
 const lookAgainAfterMs = 30_000;
 const mostScaleAtFirst = 12_000; // so that the first view of a lone station shows its surroundings
-const toldAfterMs = 1000; // the page tells that echo is loading if it takes longer
+const toldAfterMs = 1000; // if echo takes longer to load, the page says that it is loading
 const edge = 60; // margin about the stations, in pixels
 
 export class StartMap {

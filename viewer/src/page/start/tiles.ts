@@ -6,8 +6,8 @@ import { address } from '../../wire/api';
 const mostAtOnce = 4;
 const mostKept = 400;
 const againAfterMs = 1500; // pause after the first refusal, which the server gives while it draws other pictures
-const longestPause = 10; // the pause grows with each refusal, up to so many times againAfterMs
-const mostUp = 5; // until a tile comes, a tile that is at most so many zooms coarser is drawn instead
+const longestPause = 10; // the pause grows with each refusal, up to this many times againAfterMs
+const mostUp = 5; // until a tile comes, a tile that is at most this many zooms coarser is drawn instead
 
 interface Kept {
     image: HTMLImageElement;
