@@ -67,7 +67,6 @@ struct GridConfig {
     bool operator==(const GridConfig&) const = default;
 };
 
-// Limits and options of ingest.
 struct IngestConfig {
     StationRule stations;  // the stations from which data are accepted
     std::vector<AddedStation> added_stations;

@@ -30,7 +30,6 @@ struct LoopConfig {
     bool operator==(const LoopConfig&) const = default;
 };
 
-// The status of one loop.
 struct LoopState {
     std::string name;
     bool is_running = false;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr const char* identifier = "stormcellard";
 
-// The outlet of all log lines of the process.
 struct Outlet {
     std::unique_ptr<Journal> journal;
     Mutex mutex;

@@ -15,7 +15,7 @@
 //   grids          grids committed to the cache
 //   living_grids   grids of volumes that had not ended; each update of such a grid counts
 //   partial        how many of `ingested` had volumes that had not ended or were damaged
-//   rejected, no_moment, no_position, unchanged, vanished
+//   rejected, no_moment, no_position, other_station, unchanged, vanished
 //                  files with this result; a rejected file counts once for each reason, however
 //                  often it is ingested
 //   rejected_by    {"corrupt": 3, ...}: the kinds of errors that occurred
@@ -24,17 +24,25 @@
 //   lone_chunks    files that look like one chunk of a volume but are not named like one
 //   not_kept       files of which the cache holds nothing, because its limits did not keep their
 //                  volumes
-//   pending        {"waiting", "running", "growing"}: files; all zero when everything is done;
+//   pending        {"waiting", "running", "growing", "retrying"}: files; all zero when all is done;
+//                  "longest_wait_s": the longest wait of files that may be ingested now;
 //                  "waiting_files": [{"file", "left_s"}] of growing files whose volume has no end,
 //                  with the time until each volume is finished without its end, unless more data
 //                  arrive; the 5 soonest
 //   overflows, unseen, scans, directories
 //                  overflows of the event queue; entries that could not be examined; scans of the
 //                  drop directory; directories that are watched
+//   living_left_out, growing_given_up
+//                  living grids that were skipped because there was no time; growing volumes that
+//                  were given up because there was no room, and are read again
 //   rolling        the contents of the cache, null until they were first counted: {"grids",
 //                  "pinned", "bytes", "budget_bytes" (null: no limit), "evicted", "evicted_bytes",
 //                  "not_kept"}; the last three count since the start; not_kept: grids that were not
 //                  stored, because they were older than the grids that the budgets keep
+//   catalog        {"stations": the rule ("known", "any" or "listed"), "further": other stations
+//                  that "any" has accepted, "most_further": their limit, "left_alone" and
+//                  "some_left_alone": the number and first names of databases of stations that the
+//                  rule does not accept, "troubles": [{"station", "reason"}] of unusable databases}
 //   latency_s      {"count", "median", "p95", "max"}: seconds from the close (or rename) of a file
 //                  to its grids in the cache, waiting included, over the last 4096 ingested files
 //                  whose close was seen; files found by a scan have none. The values are null if
@@ -52,7 +60,7 @@
 //   stations       by name: {"station", "volume_time", "volume_age_s", "newest_radial",
 //                  "ingested_at", "ingested_age_s", "data_at", "data_age_s", "gridded", "partial",
 //                  "rejected", "no_moment", "no_position", "latency_s", "living_grids",
-//                  "sweep_latency_s", "antenna_to_cache_s" (with "last" and "last_is_live"),
+//                  "sweep_latency_s", "antenna_to_cache_s" (also "last", "last_is_live"),
 //                  "missing_chunks" (number of all), "missing" (the last 8 volumes with missing
 //                  chunks: {"volume_time", "volume_number", "count", "numbers"})}; newest_radial:
 //                  of the newest volume; data_at: when a file was last seen
@@ -65,7 +73,7 @@
 //                  text for each
 //   machines       machines that bring partials of mosaics: {"name", "directory", "late", "why"
 //                  (null: not late), "newest", "newest_age_s", "arrived", "arrived_age_s", "taken",
-//                  "refused", "last_problem" (null: none)}
+//                  "refused", "replaced", "last_problem" (null: none)}
 //   loops          {"running", "restarts", "made", "last_made" (null: none yet)} of all [[loop]]
 //                  tables; "each": [{"name", "running", "restarts", "made", "last_made", "frames",
 //                  "last_problem" (null: none)}]; "elsewhere": true if another process runs the
