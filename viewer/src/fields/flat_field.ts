@@ -66,7 +66,6 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
     return field;
 }
 
-// Finds the greatest value of each column.
 export function maximumField(grid: PackedGrid): FlatField {
     // The greatest code is also the right state: values rank above range folded, no echo and not seen, in this order.
     const greatest = new Uint16Array(grid.nx * grid.ny);

@@ -92,7 +92,6 @@ export class TableEditing {
 
     // -- files
 
-    // Replaces the draft by the draft of a file.
     takeDraft(draft: Draft): void {
         this.history.note(this.now);
         this.become({ drafts: this.with(draft) });

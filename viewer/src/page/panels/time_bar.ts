@@ -9,7 +9,6 @@ import { texts } from '../texts';
 const speeds = [1, 2, 4, 8, 15, 30];
 const betweens = [0, 30, 60, 120];
 
-// Marks the loop on the slider.
 function putLoop(app: App, slider: HTMLInputElement): void {
     const { times, loop } = app.player;
     const shareOf = (wanted: string) => {
