@@ -20,9 +20,9 @@ namespace {
 constexpr std::chrono::milliseconds look_every{500};
 // The rate of a body is not judged before this time.
 constexpr std::chrono::seconds rate_is_known_after{5};
-// A client that takes a whole body at this multiple of the least rate is never cut off.
+// A client that takes a body at this multiple of the least rate is cut off only for want of room.
 constexpr std::uint64_t times_least_rate = 20;
-// Each cut scans all bodies while other threads wait for the lock.
+// Limit for one look, because each cut scans all bodies while other threads wait for the lock.
 constexpr int most_cut_at_once = 16;
 // A new connection has this long to send something before it counts as idle.
 constexpr std::chrono::milliseconds first_words_within{250};

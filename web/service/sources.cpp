@@ -25,8 +25,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Number of maps that may wait for each frame that may wait. A map takes milliseconds and a frame
-// up to seconds, so both have their own workers.
+// For each frame that may wait, this many maps may wait. A map takes milliseconds and a frame up to
+// seconds, so both have their own workers.
 constexpr std::size_t maps_for_a_frame = 8;
 
 void add_pictures(Doors& doors, const Sources& sources) {

@@ -88,8 +88,8 @@ double five_places(double degrees) {
     return std::round(degrees * 1e5) / 1e5;
 }
 
-// The map's longitudes are from -180 to 180. A box across the antimeridian shows the part east of
-// it one turn further east.
+// The map's longitudes are from -180 to 180. In a box across the antimeridian, lines and cities to
+// the east of the antimeridian get a full turn more.
 constexpr std::array<double, 2> turns_deg{0, 360};
 
 bool is_seen(const render::MapLine& line, const RegionBox& box, double turn_deg) {

@@ -17,7 +17,7 @@
 namespace stormcellar::web {
 namespace {
 
-// A volume takes some tens of megabytes.
+// Limit of a decoded volume, which usually takes some tens of megabytes.
 constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
 
 struct FoundVolume {
