@@ -19,12 +19,8 @@ constexpr std::size_t most = std::size_t{16} << 20;
 
 class OddStreams : public ::testing::TestWithParam<Path> {
   protected:
-<<<<<<< HEAD
-    // Expects bunzip to decode as libbz2 does. Returns the end that libbz2 reports.
-=======
     // Compares the results of bunzip and libbz2. Returns how the stream ends according to libbz2,
     // so that a test can state it.
->>>>>>> f976b895 (tests: say plainly what fixtures of fetch, cache and bench do)
     End check(const Bytes& stream, std::size_t limit = most) {
         const LibraryOutcome wanted = decompressed(stream, limit);
         std::vector<std::byte> out;

@@ -11,11 +11,7 @@ namespace stormcellar::feed {
 
 inline constexpr std::uint64_t made_size = 100;
 
-<<<<<<< HEAD
-// Returns the answer to the question as one page of at most 1,000 keys.
-=======
 // Returns the answer to the question, with its pages joined as by BucketClient.
->>>>>>> f976b895 (tests: say plainly what fixtures of fetch, cache and bench do)
 [[nodiscard]] inline fetch::ListingPage listed(const std::set<std::string>& keys,
                                                const fetch::ListingQuestion& question) {
     fetch::ListingPage page;

@@ -13,11 +13,7 @@ using std::chrono::seconds;
 
 constexpr milliseconds every{4000};
 
-<<<<<<< HEAD
-// Returns the largest number of these times that are within one minute.
-=======
 // Returns the largest number of these instants that are within one minute.
->>>>>>> f976b895 (tests: say plainly what fixtures of fetch, cache and bench do)
 std::size_t most_a_minute(const std::vector<SteadyTime>& times) {
     std::size_t most = 0;
     for (std::size_t first = 0, last = 0; last < times.size(); ++last) {
