@@ -11,7 +11,7 @@ namespace stormcellar::feed {
 
 inline constexpr std::uint64_t made_size = 100;
 
-// Returns the answer to the question, with its pages joined as by BucketClient.
+// Returns the answer to the question as one page of at most 1,000 keys.
 [[nodiscard]] inline fetch::ListingPage listed(const std::set<std::string>& keys,
                                                const fetch::ListingQuestion& question) {
     fetch::ListingPage page;
