@@ -183,7 +183,8 @@ grid::BrickView view_of(const Metadata& metadata) {
     const FileHeader& header = metadata.header;
     const format::Layout& at = metadata.at;
     grid::BrickView view;
-    view.quantization = {static_cast<int>(header.code_bytes), header.first_value, header.step};
+    view.quantization = {static_cast<int>(header.code_bytes), header.first_value, header.step,
+                         level2::facts_of(static_cast<level2::Moment>(header.moment)).is_derived};
     view.bricks_x = static_cast<int>(header.bricks_x);
     view.bricks_y = static_cast<int>(header.bricks_y);
     view.bricks_z = static_cast<int>(header.bricks_z);

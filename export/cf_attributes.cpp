@@ -165,21 +165,15 @@ CfAttributes field_attributes(level2::Moment moment, std::string_view method) {
     return attributes;
 }
 
-CfAttributes status_attributes() {
-    return {
-        {"long_name", "what a cell holds"},
-        {"standard_name", "status_flag"},
-        {"comment",
-         "not_seen: blind region, beyond range, missing radials or sweeps; no_echo: seen, below "
-         "the radar's threshold; range_folded: echo from beyond the unambiguous range"},
-    };
-}
-
-std::vector<std::string_view> status_meanings() {
-    std::vector<std::string_view> names;
-    for (int status = 0; status < 4; ++status)
-        names.push_back(grid::cell_status_name(static_cast<grid::CellStatus>(status)));
-    return names;
+CfAttributes status_attributes(level2::Moment moment) {
+    std::string comment =
+        "not_seen: blind region, beyond range, missing radials or sweeps; no_echo: seen, below the "
+        "radar's threshold; range_folded: echo from beyond the unambiguous range";
+    if (level2::facts_of(moment).is_derived)
+        comment += "; ambiguous: echo whose value cannot be derived";
+    return {{"long_name", "what a cell holds"},
+            {"standard_name", "status_flag"},
+            {"comment", std::move(comment)}};
 }
 
 std::vector<double> row_places(const grid::GridSpec& spec) {

@@ -49,9 +49,7 @@ struct MapNames {
 [[nodiscard]] CfAttributes field_attributes(level2::Moment moment, std::string_view method);
 
 // Returns long_name, standard_name and comment of the states; the flags are separate.
-[[nodiscard]] CfAttributes status_attributes();
-// Returns the names of the four states, in the order of their numbers, which begin at 0.
-[[nodiscard]] std::vector<std::string_view> status_meanings();
+[[nodiscard]] CfAttributes status_attributes(level2::Moment moment);
 
 // Return the places of rows and columns: meters, or degrees of latitude and continuous longitude.
 [[nodiscard]] std::vector<double> row_places(const grid::GridSpec& spec);

@@ -29,16 +29,20 @@ struct NamedStatus {
 };
 
 bool has_flags(Moment moment) {
-    return level2::facts_of(moment).first_valid_code > 2;
+    const level2::MomentFacts& facts = level2::facts_of(moment);
+    return facts.first_valid_code > 2 && !facts.is_derived;
 }
 
 std::vector<NamedStatus> states_of(Moment moment) {
     constexpr auto number = [](GateStatus status) { return static_cast<int>(status); };
     if (!has_flags(moment)) {
-        return {{number(GateStatus::valid), "valid"},
-                {number(GateStatus::below_threshold), "below_threshold"},
-                {number(GateStatus::range_folded), "range_folded"},
-                {number(GateStatus::no_data), "no_data"}};
+        std::vector<NamedStatus> states = {{number(GateStatus::valid), "valid"},
+                                           {number(GateStatus::below_threshold), "below_threshold"},
+                                           {number(GateStatus::range_folded), "range_folded"},
+                                           {number(GateStatus::no_data), "no_data"}};
+        if (level2::facts_of(moment).is_derived)
+            states.push_back({number(GateStatus::ambiguous), "ambiguous"});
+        return states;
     }
     std::vector<NamedStatus> states = {{number(GateStatus::valid), "valid"},
                                        {number(GateStatus::no_data), "no_data"}};

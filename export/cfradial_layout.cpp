@@ -136,7 +136,8 @@ void order_and_name(std::vector<CfradialField>& fields) {
         const level2::Moment moment = fields[i].kind->moment;
         const bool further = i > 0 && fields[i - 1].kind->moment == moment;
         number = further ? number + 1 : 1;
-        fields[i].name = level2::moment_name(moment);
+        const level2::MomentFacts& facts = level2::facts_of(moment);
+        fields[i].name = facts.netcdf.variable.empty() ? facts.name : facts.netcdf.variable;
         if (further) fields[i].name += fmt::format("_{}", number);
     }
 }

@@ -165,10 +165,13 @@ void write_status(NetcdfBuilder& file, const Field& one, const Dimensions& size,
     const Grid& grid = one.grid;
     const int status =
         define_field(file, one.name_of("status"), NC_BYTE, size, grid.spec, deflate_level);
-    write_attributes(file, status, status_attributes());
-    const std::vector<std::string_view> meanings = status_meanings();
-    std::vector<signed char> flags(meanings.size());
-    std::iota(flags.begin(), flags.end(), static_cast<signed char>(0));
+    write_attributes(file, status, status_attributes(grid.moment));
+    std::vector<std::string_view> meanings;
+    std::vector<signed char> flags;
+    for (const CellStatus state : grid::states_of(grid.moment)) {
+        meanings.push_back(grid::cell_status_name(state));
+        flags.push_back(static_cast<signed char>(state));
+    }
     file.bytes(status, "flag_values", flags);
     file.text(status, "flag_meanings", fmt::format("{}", fmt::join(meanings, " ")));
     const auto cells = in_file_order<signed char>(

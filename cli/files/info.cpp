@@ -20,6 +20,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/level2/chunk_directory.h"
 #include "stormcellar/level2/describe.h"
+#include "stormcellar/retrieve/dealias.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -31,6 +32,7 @@ struct InfoOptions {
     std::string to;   // CfRadial file to write; empty: none
     int volume = 0;   // number in the file, from 1; 0: its only volume
     bool own_ranges = false;
+    std::string dealias = "off";
     SiteOptions site;
 };
 
@@ -194,10 +196,16 @@ Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& f
 }
 
 Status write_chosen(const InfoOptions& options, const InputFile& file, level2::Decoded decoded) {
+    const auto rung = retrieve::dealiasing_from_name(options.dealias);
+    if (!rung) return fail(ErrorCode::bad_argument, "--dealias {}", rung.error().message);
     const level2::DecodeReport report = decoded.report;
-    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     const auto chosen = chosen_volume(options, file, volumes.size());
     if (!chosen) return pass_on(chosen);
+    if (*rung != retrieve::Dealiasing::off) {
+        const auto added = retrieve::add_dealiased_velocity(volumes[*chosen], *rung);
+        if (!added) return fail(added.error().code, "{}: {}", file.label, added.error().message);
+    }
     auto output = OutputFile::open(options.to);
     if (!output) return pass_on(output);
     Status written = export_volume(volumes, *chosen, report, file.file_name(), output->path(),
@@ -309,6 +317,11 @@ Run set_up_info(CLI::App& info) {
                     "newest)")
         ->check(CLI::Range(1, 1000));
     add_own_ranges(info, options->own_ranges)->needs(to);
+    info.add_option("--dealias", options->dealias,
+                    fmt::format("Also write the dealiased velocity, VEL_dealiased: {}",
+                                retrieve::dealiasing_names()))
+        ->capture_default_str()
+        ->needs(to);
     add_site_options(info, options->site);
     info.add_option("--threads", options->threads,
                     "Number of threads for decompression. Default: all processors")

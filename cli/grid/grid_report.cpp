@@ -13,8 +13,10 @@
 namespace stormcellar::cli {
 namespace {
 
-std::array<std::size_t, 4> count_states(const grid::Grid& grid) {
-    std::array<std::size_t, 4> counts{};
+using StateCounts = std::array<std::size_t, grid::cell_status_count>;
+
+StateCounts count_states(const grid::Grid& grid) {
+    StateCounts counts{};
     for (const grid::CellStatus status : grid.status)
         ++counts[static_cast<std::size_t>(status)];
     return counts;
@@ -23,9 +25,9 @@ std::array<std::size_t, 4> count_states(const grid::Grid& grid) {
 // Adds the contents of a grid of one moment, and how it was made.
 void describe_cells(const grid::Grid& grid, nlohmann::ordered_json& json) {
     const auto counts = count_states(grid);
-    for (std::size_t state = 0; state < counts.size(); ++state)
-        json["cells"][std::string{grid::cell_status_name(static_cast<grid::CellStatus>(state))}] =
-            counts[state];
+    for (const grid::CellStatus state : grid::states_of(grid.moment))
+        json["cells"][std::string{grid::cell_status_name(state)}] =
+            counts[static_cast<std::size_t>(state)];
     json["fields"] = nlohmann::ordered_json::array();
     for (const grid::Detail detail : grid::all_details) {
         if (grid.details.set().has(detail)) json["fields"].push_back(grid::detail_name(detail));
@@ -72,9 +74,12 @@ void print_cells(std::FILE* to, const grid::Grid& grid, const std::string& name)
     };
     fmt::print(to,
                "  {}{:.1f} % with a value, {:.1f} % no echo, {:.1f} % range folded, {:.1f} % not "
-               "seen\n",
+               "seen",
                name, percent(grid::CellStatus::value), percent(grid::CellStatus::no_echo),
                percent(grid::CellStatus::range_folded), percent(grid::CellStatus::not_seen));
+    if (level2::facts_of(grid.moment).is_derived)
+        fmt::print(to, ", {:.1f} % ambiguous", percent(grid::CellStatus::ambiguous));
+    fmt::print(to, "\n");
 }
 
 }  // namespace

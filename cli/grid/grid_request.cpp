@@ -175,13 +175,38 @@ Result<level2::Moment> parse_moment(const std::string& name) {
 
 constexpr std::string_view every_moment = "all";
 
+// Reads --dealias, which turns VEL into VELD unless it is "off".
+Status choose_dealiasing(const GridOptions& options, GridRequest& request,
+                         std::vector<level2::Moment>& moments) {
+    if (options.dealias.empty()) return {};
+    const auto rung = retrieve::dealiasing_from_name(options.dealias);
+    if (!rung) return fail(ErrorCode::bad_argument, "--dealias {}", rung.error().message);
+    request.dealiasing = *rung;
+    const auto has = [&](level2::Moment moment) {
+        return std::ranges::find(moments, moment) != moments.end();
+    };
+    if (*rung == retrieve::Dealiasing::off) {
+        if (!has(level2::Moment::veld) || request.any_moment) return {};
+        return fail(ErrorCode::bad_argument,
+                    "--dealias off does not go with --moment VELD, the dealiased velocity");
+    }
+    if (!has(level2::Moment::vel) && !has(level2::Moment::veld))
+        return fail(ErrorCode::bad_argument, "--dealias needs --moment VEL");
+    if (!has(level2::Moment::veld))
+        std::ranges::replace(moments, level2::Moment::vel, level2::Moment::veld);
+    std::ranges::sort(moments);
+    return {};
+}
+
 // Reads one moment. Where several are allowed, also reads a list of moments or "all".
 Status parse_moments(const GridOptions& options, GridRequest& request) {
     const std::string& text = options.moment;
     request.any_moment = options.takes_moments && text == every_moment;
     std::vector<level2::Moment> moments;
     if (request.any_moment) {
-        moments.assign(level2::all_moments.begin(), level2::all_moments.end());
+        std::ranges::copy_if(
+            level2::all_moments, std::back_inserter(moments),
+            [](level2::Moment moment) { return !level2::facts_of(moment).is_derived; });
     } else if (!options.takes_moments) {
         const auto moment = parse_moment(text);
         if (!moment) return pass_on(moment);
@@ -197,6 +222,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
         std::ranges::sort(moments);
         moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     }
+    if (Status chosen = choose_dealiasing(options, request, moments); !chosen) return chosen;
     request.moment = moments.front();
     request.more_moments.assign(moments.begin() + 1, moments.end());
     return {};
@@ -432,6 +458,10 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                                      "(all) become one file, decoded once, with a variable each"
                                    : ""))
         ->capture_default_str();
+    app.add_option("--dealias", options.dealias,
+                   fmt::format("How to dealias the velocity (VELD instead of VEL): {}",
+                               retrieve::dealiasing_names()))
+        ->default_str("off");
     app.add_option("--threads", options.threads,
                    options.threads == 0
                        ? std::string{"Number of threads. Default: all processors"}

@@ -14,14 +14,26 @@ namespace {
 constexpr std::string_view how_to_place =
     "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
 
+// Adds the dealiased velocity. If any moment will do, a volume need not have velocities.
+Status add_derived(const GridRequest& request, level2::Volume& volume) {
+    const auto dealiased = retrieve::add_dealiased_velocity(volume, request.dealiasing);
+    if (dealiased || request.any_moment) return {};
+    return pass_on(dealiased);
+}
+
 // Returns what to decode for a request. The request must outlive the result.
 grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cuts) {
-    return {
+    grid::SourceWish wish{
         .moments = request.moments(),
         .choose_cuts = choose_cuts,
         .place = [&request](level2::Volume& volume) { return apply_site(request.site, volume); },
         .how_to_place = how_to_place,
         .threads = request.threads};
+    if (std::ranges::find(wish.moments, level2::Moment::veld) != wish.moments.end()) {
+        wish.choose_cuts = {};  // all cuts help to dealias one
+        wish.derive = [&request](level2::Volume& volume) { return add_derived(request, volume); };
+    }
+    return wish;
 }
 
 struct ReadVolume {

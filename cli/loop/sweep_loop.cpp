@@ -323,7 +323,7 @@ int run_sweep_loop(LoopOptions options, const render::Scene& scene, Interrupt& i
     if (!sources) return report_error(sources.error());
     SweepDrawing drawing;
     drawing.grid = options.archive.place;
-    drawing.grid.moment = options.scene.moment;
+    take_moment(options.scene, drawing.grid);
     drawing.grid.threads = render::thread_count(options.scene);
     drawing.scene = scene;
     drawing.all_elevations = options.all_elevations;

@@ -108,7 +108,7 @@ Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const ren
     if (!raw) return pass_on(raw);
     for (const std::string& note : raw->notes)
         print_note(printable(note));
-    options.grid.moment = options.scene.moment;
+    take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     auto volume = decode_sweeps(*raw, options.grid, &scene);
     if (!volume) return pass_on(volume);
@@ -125,7 +125,7 @@ Result<PictureGrid> sweep_of_file(const GridOptions& options, const render::Scen
 
 Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
                                                  const render::Scene& scene) {
-    options.grid.moment = options.scene.moment;
+    take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
     auto grid = render::facts_of(scene.product).is_of_sweep ? sweep_of_file(options.grid, scene)

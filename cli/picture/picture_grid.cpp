@@ -58,6 +58,12 @@ Result<PictureGrid> PictureGrid::open(const std::filesystem::path& file) {
     return PictureGrid(std::make_unique<Stored>(Stored{std::move(*opened), {}, {}}));
 }
 
+void take_moment(const render::SceneOptions& scene, GridOptions& grid) {
+    grid.moment = scene.moment;
+    const bool is_off = scene.dealias == retrieve::dealiasing_name(retrieve::Dealiasing::off);
+    grid.dealias = is_off ? "" : scene.dealias;
+}
+
 Result<PictureGrid> PictureGrid::make(GridOptions options) {
     auto grids = make_each(std::move(options));
     if (!grids) return pass_on(grids);

@@ -13,6 +13,7 @@
 #include "cli/grid/grid_request.h"
 #include "cli/grid/volume_source.h"
 #include "cli/picture/swept_volume.h"
+#include "render/options/scene_options.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_view.h"
@@ -24,6 +25,9 @@ namespace stormcellar::cli {
 void add_picture_grid_options(CLI::App& app, GridOptions& options);
 // Returns true if one of these options was typed. They make no sense for a grid of the cache.
 [[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
+
+// Gives the options for the grid the moment of a scene, and how it is dealiased.
+void take_moment(const render::SceneOptions& scene, GridOptions& grid);
 
 class PictureGrid {
   public:

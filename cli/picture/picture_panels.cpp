@@ -20,8 +20,10 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
 Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
                                               const std::vector<PanelScene>& panels) {
     std::vector<PictureGrid> sweeps;
+    const std::string dealias = options.dealias;
     for (const PanelScene& panel : panels) {
         options.moment = level2::moment_name(panel.moment);
+        options.dealias = panel.moment == level2::Moment::veld ? dealias : "";
         auto volume = read_sweeps(options, &panel.scene);
         if (!volume) return pass_on(volume);
         const grid::GridSpec* const plane =

@@ -40,6 +40,9 @@ Names products() {
 Names moments() {
     return row_names(level2::moment_facts);
 }
+Names dealiasings() {
+    return {"off", "auto", "profile", "region", "anchored"};
+}
 Names colors() {
     return row_names(render::built_in_tables());
 }
@@ -140,6 +143,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"COMMAND", "COMMAND", Kept::commands},
     {"--product", "PRODUCT", Kept::nowhere, offered::products},
     {"--moment", "MOMENT", Kept::nowhere, offered::moments},
+    {"--dealias", "RUNG", Kept::nowhere, offered::dealiasings},
     {"--colors", "TABLE", Kept::files, offered::colors},
     {"--projection", "PROJECTION", Kept::nowhere, offered::projections},
     {"--overlap", "RULE", Kept::nowhere, offered::overlaps},

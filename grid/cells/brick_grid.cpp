@@ -20,12 +20,12 @@ constexpr int pieces_a_thread = 4;
 // Returns the nearest code. A value beyond the range of codes is clamped to its end, and counted.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
     const double code = nearest_code(value, quantization);
-    if (is_within<double>(code, first_value_code, quantization.largest_code())) {
+    if (is_within<double>(code, quantization.first_code(), quantization.largest_code())) {
         return static_cast<std::uint16_t>(code);
     }
     ++clamped;
     return std::isgreater(code, double{first_value_code}) ? quantization.largest_code()
-                                                          : first_value_code;
+                                                          : quantization.first_code();
 }
 
 // Reads one brick of cells as codes. Places beyond the edge of the grid remain 0.
@@ -68,14 +68,14 @@ class BrickReader {
         }
     }
 
-    // Copies the states. Returns true if one of them is a value.
+    // Copies the states; ambiguous (4) becomes code 3. Returns true if one of them is a value (3).
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
         for (int z = 0; z < count; ++z) {
             const auto state = static_cast<std::uint8_t>(status[z]);
             largest |= static_cast<std::uint8_t>(state & (state >> 1));
-            to[z] = state;
+            to[z] = static_cast<std::uint8_t>(state - (state >> 2));
         }
         return largest != 0;
     }

@@ -10,10 +10,6 @@ std::size_t brick_of(const BrickView& view, int ix, int iy, int iz) {
     return view.brick_index(ix / brick_edge, iy / brick_edge, iz / brick_edge);
 }
 
-CellStatus status_of_code(std::uint16_t code) {
-    return code < first_value_code ? static_cast<CellStatus>(code) : CellStatus::value;
-}
-
 CellStatus stored_state(const BrickView& view, const BrickEntry& brick, std::size_t cell) {
     const std::size_t at = brick.status_index * state_block_bytes + cell / 4;
     const auto four_cells = static_cast<unsigned>(view.states[at]);
@@ -23,9 +19,16 @@ CellStatus stored_state(const BrickView& view, const BrickEntry& brick, std::siz
 }  // namespace
 
 std::string_view cell_status_name(CellStatus status) {
-    constexpr std::array<std::string_view, 4> names = {"not_seen", "no_echo", "range_folded",
-                                                       "value"};
+    constexpr std::array<std::string_view, cell_status_count> names = {
+        "not_seen", "no_echo", "range_folded", "value", "unavailable", "ambiguous"};
     return names[static_cast<std::size_t>(status)];
+}
+
+std::vector<CellStatus> states_of(level2::Moment moment) {
+    std::vector<CellStatus> states = {CellStatus::not_seen, CellStatus::no_echo,
+                                      CellStatus::range_folded, CellStatus::value};
+    if (level2::facts_of(moment).is_derived) states.push_back(CellStatus::ambiguous);
+    return states;
 }
 
 std::uint16_t BrickView::code_at(std::size_t offset) const {
@@ -44,7 +47,7 @@ CellStatus BrickView::status(int ix, int iy, int iz) const {
         case BrickKind::status_only:
             return stored_state(*this, brick, offset % brick_cells);
         case BrickKind::stored:
-            return status_of_code(code_at(offset));
+            return quantization.status_of(code_at(offset));
     }
     return CellStatus::not_seen;
 }

@@ -43,7 +43,8 @@ class RowComparer {
     void add(std::uint16_t a, std::uint16_t b) {
         if (a == 0 && b == 0) return;
         ++found_.status.compared;
-        const bool valued_a = a >= first_value_code, valued_b = b >= first_value_code;
+        const bool valued_a = a >= a_.quantization.first_code();
+        const bool valued_b = b >= b_.quantization.first_code();
         if (valued_a && valued_b) {
             found_.values.push_back(a_.quantization.value_of(a) - b_.quantization.value_of(b));
         } else if (valued_a != valued_b || a != b) {

@@ -66,12 +66,8 @@ void GridSampler::read(Cell cell, Corner& corner) const {
         return;
     }
     const std::uint16_t code = view_.code_at(x.offset + y.offset + z.offset);
-    if (code < first_value_code) {
-        corner.status = static_cast<CellStatus>(code);
-        return;
-    }
-    corner.status = CellStatus::value;
-    corner.value = view_.quantization.value_of(code);
+    corner.status = view_.quantization.status_of(code);
+    if (corner.status == CellStatus::value) corner.value = view_.quantization.value_of(code);
 }
 
 bool GridSampler::find(ColumnPoint column, double level, Corners& corners) const {

@@ -15,7 +15,8 @@ GridTally::GridTally(GridSpec spec, Quantization quantization, Tallied tallied)
       tops_(spec_.cell_count()) {
     if (tallied == Tallied::columns_and_cells) cells_.emplace(spec_.cell_count(), quantization);
     top_code_ = std::numeric_limits<std::uint16_t>::max();
-    for (std::uint16_t code = quantization_.largest_code(); code >= first_value_code; --code) {
+    for (std::uint16_t code = quantization_.largest_code(); code >= quantization_.first_code();
+         --code) {
         if (quantization_.value_of(code) >= echo_top_dbz) top_code_ = code;
     }
 }

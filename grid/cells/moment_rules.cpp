@@ -18,6 +18,11 @@ constexpr auto moment_rules = std::to_array<MomentRules>({
     {Moment::phi, {2, 0, 0.25F}, ValueUnit::degree, false, "each has an offset of its own"},
     {Moment::rho, {2, 0, 0.001953125F}, ValueUnit::ratio},
     {Moment::cfp, {2, -256, 0.25F}, ValueUnit::db},
+    {Moment::veld,
+     {2, -1024, 0.25F, true},
+     ValueUnit::mps,
+     false,
+     "each measures along its own beams"},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 

@@ -29,7 +29,7 @@ ValueTally::ValueTally(std::size_t places, Quantization quantization)
     const std::size_t codes = std::size_t{quantization_.largest_code()} + 1;
     bin_of_.resize(codes);
     power_of_.resize(codes);
-    for (std::size_t code = first_value_code; code < codes; ++code) {
+    for (std::size_t code = quantization_.first_code(); code < codes; ++code) {
         const double dbz = quantization_.value_of(static_cast<std::uint16_t>(code));
         bin_of_[code] = bin_of_value(dbz);
         power_of_[code] =

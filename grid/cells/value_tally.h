@@ -33,10 +33,11 @@ class ValueTally {
 
     ValueTally(std::size_t places, Quantization quantization);
 
-    // Counts a place that one more grid has seen. A code below first_value_code means no value.
+    // Counts a place that one more grid has seen. Codes below quantization.first_code() mean no
+    // value.
     void count(std::size_t place, std::uint16_t code) {
         ++seen_[place];
-        if (code >= first_value_code) count_value(place, code);
+        if (code >= quantization_.first_code()) count_value(place, code);
     }
     // Adds a tally, which must have as many places and the same quantization.
     void add(const ValueTally& more);

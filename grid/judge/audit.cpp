@@ -31,6 +31,8 @@ std::optional<CellStatus> status_of(level2::GateStatus status) {
             return CellStatus::no_echo;
         case level2::GateStatus::range_folded:
             return CellStatus::range_folded;
+        case level2::GateStatus::ambiguous:
+            return CellStatus::ambiguous;
         case level2::GateStatus::no_data:
             break;
     }
@@ -57,7 +59,7 @@ struct Gate {
 
 // Applies the status rule to the eight cells around a gate.
 Finding mix(const GridSampler::Corners& corners, const Gate& gate) {
-    std::array<float, 4> weights{};
+    std::array<float, cell_status_count> weights{};
     float sum = 0;
     for (const GridSampler::Corner& corner : corners) {
         weights[static_cast<std::size_t>(corner.status)] += corner.weight;
@@ -68,9 +70,11 @@ Finding mix(const GridSampler::Corners& corners, const Gate& gate) {
     const float unseen = weights[static_cast<std::size_t>(CellStatus::not_seen)];
     const float quiet = weights[static_cast<std::size_t>(CellStatus::no_echo)];
     const float folded = weights[static_cast<std::size_t>(CellStatus::range_folded)];
+    const float ambiguous = weights[static_cast<std::size_t>(CellStatus::ambiguous)];
     float valued = weights[static_cast<std::size_t>(CellStatus::value)];
     if (unseen > 0.5F) return {CellStatus::not_seen};
-    if (folded > valued && folded > quiet) return {CellStatus::range_folded};
+    if (folded + ambiguous > valued && folded + ambiguous > quiet)
+        return {folded >= ambiguous ? CellStatus::range_folded : CellStatus::ambiguous};
     if (valued < quiet) return {CellStatus::no_echo};
     if (quiet > 0 && !std::isnan(gate.limit)) {
         sum += quiet * (gate.limit - gate.value);
@@ -87,7 +91,7 @@ struct Sums {
 
 struct SweepAudit {
     std::array<Sums, classes> ranges{};
-    std::array<std::array<std::uint64_t, 4>, 4> states{};
+    decltype(Audit::states) states{};
 };
 
 std::size_t class_of(double range_m) {

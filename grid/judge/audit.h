@@ -58,7 +58,7 @@ struct Audit {
     // by rising elevation, then range; without classes that have no gates
     std::vector<AuditRow> rows;
     // The number of gates by their status (first index, a CellStatus) and the grid's status there.
-    std::array<std::array<std::uint64_t, 4>, 4> states{};
+    std::array<std::array<std::uint64_t, cell_status_count>, cell_status_count> states{};
 };
 
 // Audits a grid, which was made with the moment, beam, profile and choice of sweeps in `gridded`.

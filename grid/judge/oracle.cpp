@@ -287,15 +287,17 @@ OracleCell OracleColumn::cell(std::size_t level, double raised_m) const {
 }
 
 OracleCell OracleColumn::decide(const std::vector<WeightedGate>& gates) const {
-    std::array<double, 4> weight{};
+    std::array<double, cell_status_count> weight{};
     for (const WeightedGate& gate : gates)
         weight[static_cast<std::size_t>(gate.status)] += gate.weight;
-    const auto [u, n, f, v] = weight;
+    const auto [u, n, folded, v, unavailable, ambiguous] = weight;
+    const double f = folded + ambiguous;
     OracleCell cell{.unseen = u, .margin = std::abs(u - 0.5)};
     if (u > 0.5) return cell;
     cell.margin = std::min({cell.margin, std::abs(f - std::max(v, n))});
     if (f > v && f > n) {
-        cell.status = CellStatus::range_folded;
+        if (ambiguous > 0) cell.margin = std::min(cell.margin, std::abs(folded - ambiguous));
+        cell.status = folded >= ambiguous ? CellStatus::range_folded : CellStatus::ambiguous;
         return cell;
     }
     cell.margin = std::min(cell.margin, std::abs(v - n));

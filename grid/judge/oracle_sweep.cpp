@@ -124,6 +124,9 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
         case level2::GateStatus::range_folded:
             gate.status = CellStatus::range_folded;
             break;
+        case level2::GateStatus::ambiguous:
+            gate.status = CellStatus::ambiguous;
+            break;
         case level2::GateStatus::no_data:
             break;
     }

@@ -23,7 +23,8 @@ std::size_t cell_in_brick(int x, int y, int z) {
 // Returns the nearest code. A value beyond the range of codes is clamped to its end.
 std::uint16_t clamped_code(float value, const Quantization& quantization) {
     const double code = nearest_code(value, quantization);
-    return static_cast<std::uint16_t>(std::clamp(code, static_cast<double>(first_value_code),
+    return static_cast<std::uint16_t>(std::clamp(code,
+                                                 static_cast<double>(quantization.first_code()),
                                                  static_cast<double>(quantization.largest_code())));
 }
 
@@ -159,8 +160,10 @@ void InstantBrick::find_box(std::size_t end) {
 }
 
 Sample InstantBrick::sample_of(std::uint16_t code) const {
-    if (code < first_value_code) return {static_cast<CellStatus>(code), 0, 0, 0};
-    return {CellStatus::value, maker_.ends_[0].timed.view.quantization.value_of(code), 0, 0};
+    const Quantization& quantization = maker_.ends_[0].timed.view.quantization;
+    const CellStatus status = quantization.status_of(code);
+    if (status != CellStatus::value) return {status, 0, 0, 0};
+    return {CellStatus::value, quantization.value_of(code), 0, 0};
 }
 
 // Adds the detection limit to a sample without echo, for mixing it with echo.

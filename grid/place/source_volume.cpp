@@ -15,8 +15,9 @@ namespace stormcellar::grid {
 namespace {
 
 bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& moments) {
-    return std::ranges::any_of(
-        moments, [&](level2::Moment moment) { return level2::holds(volume, moment); });
+    return std::ranges::any_of(moments, [&](level2::Moment moment) {
+        return level2::holds(volume, level2::measured_moment(moment));
+    });
 }
 
 // Decodes the metadata, lets `choose_cuts` choose cuts and decodes them. Returns none if decoding
@@ -102,6 +103,10 @@ Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& fil
     if (wish.place) {
         if (Status placed = wish.place(source.volume); !placed)
             return fail(placed.error().code, "{}: {}", file, placed.error().message);
+    }
+    if (wish.derive) {
+        if (Status derived = wish.derive(source.volume); !derived)
+            return fail(derived.error().code, "{}: {}", file, derived.error().message);
     }
     if (!troubles.empty()) {
         source.radar_troubles = {

@@ -40,6 +40,8 @@ struct SourceWish {
     ChooseCuts choose_cuts = {};
     // Gives the volume a name or a position that the file lacks.
     std::function<Status(level2::Volume&)> place = {};
+    // Adds derived moments, after `place`.
+    std::function<Status(level2::Volume&)> derive = {};
     // Added to the error message for a radar whose position is unknown.
     std::string_view how_to_place = {};
     int threads = 1;
@@ -64,7 +66,7 @@ struct SourceWish {
 // Returns the volume with the wanted number or start, else the first that holds one of the moments,
 // else the first. Errors, with the name of the file: bad_argument if the wanted number is above the
 // number of volumes; not_found if none of several volumes has the wanted start, or if the position
-// of the radar is unknown; the errors of `place`.
+// of the radar is unknown; the errors of `place` and `derive`.
 [[nodiscard]] Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& file,
                                                const SourceWish& wish);
 

@@ -59,6 +59,9 @@ void Mixture::add_as(const Sample& sample, float weight, Blending blending) {
         case CellStatus::range_folded:
             folded_ += weight;
             return;
+        case CellStatus::ambiguous:
+            ambiguous_ += weight;
+            return;
         case CellStatus::not_seen:
             unseen_ += weight;
             return;
@@ -81,6 +84,7 @@ void Mixture::add(const Mixture& other, float weight, Blending blending) {
     valued_ += weight * other.valued_;
     quiet_ += weight * other.quiet_;
     folded_ += weight * other.folded_;
+    ambiguous_ += weight * other.ambiguous_;
     unseen_ += weight * other.unseen_;
     if (is_circular(blending)) {
         if (other.sum_weight_ == 0) return;
@@ -94,9 +98,11 @@ void Mixture::add(const Mixture& other, float weight, Blending blending) {
 
 template <bool circular>
 CellResult Mixture::result_as(Blending blending) const {
-    const float seen = valued_ + quiet_ + folded_;
+    const float unknown = folded_ + ambiguous_;
+    const float seen = valued_ + quiet_ + unknown;
     if (unseen_ > seen || seen == 0) return {CellStatus::not_seen, 0};
-    if (folded_ > valued_ && folded_ > quiet_) return {CellStatus::range_folded, 0};
+    if (unknown > valued_ && unknown > quiet_)
+        return {folded_ >= ambiguous_ ? CellStatus::range_folded : CellStatus::ambiguous, 0};
     if (valued_ < quiet_) return {CellStatus::no_echo, 0};
     const float mean = reference_ + sum_ / sum_weight_;
     if (!circular || !(half_period_ > 0)) return {CellStatus::value, mean};

@@ -2,11 +2,12 @@
 // several gates.
 //
 // The rule (docs/geometry.md): the gates of a cell have the total weights v (valued), n (no echo),
-// f (range folded) and u (not seen). If u is over one half of the sum, the cell is not seen.
-// Otherwise, if f is the largest, the cell is range folded. Otherwise, if v < n, the cell is no
-// echo. Otherwise, the cell has a value. Range folded and not seen never enter a value; the other
-// weights are scaled to 1. For reflectivity, no echo enters a value with the detection limit of its
-// gate; for other moments it does not enter.
+// f (range folded), a (ambiguous) and u (not seen). If u is over one half of the sum, the cell is
+// not seen. Otherwise, if f + a is the largest, the cell is range folded or ambiguous, whichever
+// weighs more. Otherwise, if v < n, the cell is no echo. Otherwise, the cell has a value. Range
+// folded, ambiguous and not seen never enter a value; the other weights are scaled to 1. For
+// reflectivity, no echo enters a value with the detection limit of its gate; for other moments it
+// does not enter.
 //
 // Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: as
 // differences from the value with the largest weight, the shorter way around. Values whose circles
@@ -97,16 +98,20 @@ class Mixture {
     }
     template <bool circular>
     [[nodiscard]] CellResult result_as(Blending blending) const;
-    [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + unseen_; }
+    [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + ambiguous_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
     // Return true if every sample is no echo, or if every sample is not seen.
-    [[nodiscard]] bool is_all_quiet() const { return valued_ + folded_ + unseen_ == 0; }
-    [[nodiscard]] bool is_all_unseen() const { return valued_ + quiet_ + folded_ == 0; }
+    [[nodiscard]] bool is_all_quiet() const {
+        return valued_ + folded_ + ambiguous_ + unseen_ == 0;
+    }
+    [[nodiscard]] bool is_all_unseen() const {
+        return valued_ + quiet_ + folded_ + ambiguous_ == 0;
+    }
 
   private:
     void add_on_circle(float value, float half_period, float weight);
 
-    float valued_ = 0, quiet_ = 0, folded_ = 0, unseen_ = 0;
+    float valued_ = 0, quiet_ = 0, folded_ = 0, ambiguous_ = 0, unseen_ = 0;
     float sum_ = 0;  // of weight times value, limits included; circular: of weight times difference
     float sum_weight_ = 0;   // the weight of the samples in sum_
     float reference_ = 0;    // circular: the value from which differences are taken

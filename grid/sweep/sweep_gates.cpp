@@ -46,6 +46,7 @@ std::int32_t gates_of(const level2::SweepMoment& moment, std::size_t radial) {
 CellStatus status_of_flag(level2::Moment moment, std::uint16_t code) {
     const level2::GateStatus status = level2::status_of_code(moment, code);
     if (status == level2::GateStatus::no_data) return CellStatus::not_seen;
+    if (status == level2::GateStatus::ambiguous) return CellStatus::ambiguous;
     return status == level2::GateStatus::below_threshold ? CellStatus::no_echo
                                                          : CellStatus::range_folded;
 }
@@ -274,7 +275,7 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
         return;
     }
     // Otherwise count the gates by state, and sum values and limits.
-    int valued = 0, quiet = 0;
+    int valued = 0, quiet = 0, ambiguous = 0;
     float values = 0, limits = 0;
     for (std::int32_t gate = first; gate < end; ++gate) {
         const auto code = code_at(gate);
@@ -286,11 +287,15 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
             if (!has_limits) continue;
             const Kind::Loss& loss = kind.losses[static_cast<std::size_t>(gate)];
             limits += row.limit_at_1km + loss.spreading + loss.attenuation;
+        } else if (code == 2) {  // only derived moments have a state with this code
+            ++ambiguous;
         }
     }
     mixture.add_counted(CellStatus::value, valued, values, blending_);
     mixture.add_counted(CellStatus::no_echo, quiet, limits, blending_);
-    mixture.add_counted(CellStatus::range_folded, end - first - valued - quiet, 0, blending_);
+    mixture.add_counted(CellStatus::ambiguous, ambiguous, 0, blending_);
+    mixture.add_counted(CellStatus::range_folded, end - first - valued - quiet - ambiguous, 0,
+                        blending_);
 }
 
 void SweepGates::add_along_radial(int position, ArcPlace place, float weight,

@@ -97,9 +97,10 @@ std::optional<UtcTime> first_of(const std::vector<Sweep>& sweeps) {
 }  // namespace
 
 GateStatus status_of_code(Moment moment, std::uint16_t code) {
-    const std::uint16_t first_valid = facts_of(moment).first_valid_code;
-    if (code >= first_valid) return GateStatus::valid;
-    if (first_valid > 2) return GateStatus::no_data;
+    const MomentFacts& facts = facts_of(moment);
+    if (code >= facts.first_valid_code) return GateStatus::valid;
+    if (facts.is_derived && code == 2) return GateStatus::ambiguous;
+    if (facts.first_valid_code > 2 && !facts.is_derived) return GateStatus::no_data;
     return code == 0 ? GateStatus::below_threshold : GateStatus::range_folded;
 }
 

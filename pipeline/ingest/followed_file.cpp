@@ -109,7 +109,8 @@ bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) 
 MomentSet moments_in(const level2::Sweep& sweep, const std::vector<level2::Moment>& moments) {
     MomentSet found;
     for (const level2::Moment moment : moments)
-        found.set(static_cast<std::size_t>(moment), sweep.find(moment) != nullptr);
+        found.set(static_cast<std::size_t>(moment),
+                  sweep.find(level2::measured_moment(moment)) != nullptr);
     return found;
 }
 

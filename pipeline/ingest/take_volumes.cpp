@@ -166,7 +166,9 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
         (void)SiteGrids::has_place(volume, outcome_);
         return {};
     }
-    const auto has = [&](level2::Moment moment) { return level2::holds(volume, moment); };
+    const auto has = [&](level2::Moment moment) {
+        return level2::holds(volume, level2::measured_moment(moment));
+    };
     if (std::ranges::none_of(context_.options.moments, has)) return {};
     const auto rival = has_rival(volume);
     if (!rival) return pass_on(rival);

@@ -113,19 +113,33 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
                        IngestOutcome& outcome) {
     if (!has_place(volume, outcome)) return {};
     for (const level2::Moment moment : options_.moments) {
-        if (!level2::holds(volume, moment)) continue;
+        if (!level2::holds(volume, level2::measured_moment(moment))) continue;
         if (Status kept = keep_moment(volume, moment, source, threads, outcome); !kept) return kept;
     }
     return {};
 }
 
-Status SiteGrids::keep_moment(const level2::Volume& volume, level2::Moment moment,
+// Returns the volume, or, for a derived moment, its copy in `derived` with that moment.
+Result<const level2::Volume*> SiteGrids::derive(const level2::Volume& volume, level2::Moment moment,
+                                                std::optional<level2::Volume>& derived) const {
+    if (!level2::facts_of(moment).is_derived) return &volume;
+    auto made = retrieve::dealiased_velocities(volume, options_.dealiasing);
+    if (!made) return pass_on(made);
+    derived = std::move(*made);
+    return &*derived;
+}
+
+Status SiteGrids::keep_moment(const level2::Volume& measured, level2::Moment moment,
                               const GridSource& source, int threads, IngestOutcome& outcome) {
-    if (!store_.would_keep(volume.station, moment, volume.start_time().value_or(UtcTime{}))) {
-        note_not_kept(volume.station, outcome);
+    if (!store_.would_keep(measured.station, moment, measured.start_time().value_or(UtcTime{}))) {
+        note_not_kept(measured.station, outcome);
         return {};
     }
     const auto start = Clock::now();
+    std::optional<level2::Volume> derived;
+    const auto used = derive(measured, moment, derived);
+    if (!used) return pass_on(used);
+    const level2::Volume& volume = **used;
     auto made = make(volume, moment, source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
@@ -150,14 +164,18 @@ Status SiteGrids::keep_moment(const level2::Volume& volume, level2::Moment momen
     return {};
 }
 
-Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment moment,
+Status SiteGrids::keep_living(const level2::Volume& measured, level2::Moment moment,
                               const GridSource& source, int threads, IngestOutcome& outcome) {
-    const bool has_place = level2::antenna_position(volume) && !volume.station.empty();
+    const bool has_place = level2::antenna_position(measured) && !measured.station.empty();
     if (!has_place ||
-        !store_.would_keep(volume.station, moment, volume.start_time().value_or(UtcTime{}))) {
+        !store_.would_keep(measured.station, moment, measured.start_time().value_or(UtcTime{}))) {
         return {};
     }
     const auto start = Clock::now();
+    std::optional<level2::Volume> derived;
+    const auto used = derive(measured, moment, derived);
+    if (!used) return pass_on(used);
+    const level2::Volume& volume = **used;
     auto made = make(volume, moment, source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ class SiteGrids {
     // Grids one moment of a growing volume and commits the grid, like keep(). Neither audits nor
     // syncs the grid, because it will be replaced in seconds and made again after a crash. Adds the
     // path to the outcome's `living`.
-    Status keep_living(const level2::Volume& volume, level2::Moment moment,
+    Status keep_living(const level2::Volume& measured, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
 
   private:
@@ -55,7 +56,10 @@ class SiteGrids {
         grid::Grid grid;
         grid::GridderOptions gridder;
     };
-    Status keep_moment(const level2::Volume& volume, level2::Moment moment,
+    [[nodiscard]] Result<const level2::Volume*> derive(
+        const level2::Volume& volume, level2::Moment moment,
+        std::optional<level2::Volume>& derived) const;
+    Status keep_moment(const level2::Volume& measured, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
     Result<Made> make(const level2::Volume& volume, level2::Moment moment, const GridSource& source,
                       int threads);

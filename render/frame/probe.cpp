@@ -169,8 +169,11 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
 }
 
 std::string probe_text(const Probe& probe, const Units& units) {
-    constexpr std::array states = {"not seen", "no echo", "range folded"};
-    if (probe.status != CellStatus::value) return states[static_cast<std::size_t>(probe.status)];
+    if (probe.status != CellStatus::value) {
+        std::string state{grid::cell_status_name(probe.status)};
+        std::ranges::replace(state, '_', ' ');
+        return state;
+    }
     const ShownUnit unit = shown_unit(probe.unit, units);
     // A converted value gets no more digits than it had before.
     const int digits = unit.symbol == probe.unit ? 6 : 4;

@@ -27,12 +27,12 @@ Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share) {
     return one;
 }
 
-Rgba8 hatched(Rgba8 ground, const Shades& shades, int x, int y, double scale) {
+Rgba8 hatched(Rgba8 ground, Rgba8 lines, int x, int y, double scale) {
     const double period = 9 * scale;  // along a row of pixels
     const double place = x + y;
     const double along = place - period * static_cast<int>(place / period);
     const double distance = std::min(along, period - along) / std::numbers::sqrt2;
-    return mixed(ground, shades.hatch, std::clamp(0.5 * scale + 0.5 - distance, 0.0, 1.0));
+    return mixed(ground, lines, std::clamp(0.5 * scale + 0.5 - distance, 0.0, 1.0));
 }
 
 }  // namespace stormcellar::render

@@ -99,6 +99,6 @@ inline constexpr Shades light = {
 
 // Returns the color of ground that was not seen, with thin diagonal lines, at a pixel of the whole
 // picture. The lines are `scale` times as far apart as usual.
-[[nodiscard]] Rgba8 hatched(Rgba8 ground, const Shades& shades, int x, int y, double scale);
+[[nodiscard]] Rgba8 hatched(Rgba8 ground, Rgba8 lines, int x, int y, double scale);
 
 }  // namespace stormcellar::render

@@ -279,7 +279,7 @@ void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) 
                      block.color);
         for (int y = 0; y < swatch.height; ++y) {
             for (int x = 0; x < swatch.width; ++x) {
-                swatch.set(x, y, hatched(block.color, *layout.shades, x, y, layout.scale));
+                swatch.set(x, y, hatched(block.color, layout.shades->hatch, x, y, layout.scale));
             }
         }
         canvas.place(swatch, static_cast<int>(block.box.x), static_cast<int>(block.box.y));

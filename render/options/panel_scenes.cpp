@@ -52,7 +52,7 @@ Result<std::vector<PanelScene>> panel_scenes(
         panel.moment = level2::moment_name(moment);
         auto scene = scene_of_panel(panel);
         if (!scene) return pass_on(scene);
-        panels.push_back({moment, std::move(*scene)});
+        panels.push_back({scene->moment, std::move(*scene)});
     }
     return panels;
 }

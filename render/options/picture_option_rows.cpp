@@ -49,6 +49,13 @@ constexpr std::array option_rows{
                                      .check = check_moment,
                                      .known = known_moments},
                   .help = "The moment to draw: {}"},
+    PictureOption{.option = "--dealias",
+                  .section = "picture",
+                  .key = "dealias",
+                  .value = TextValue{.field = [](To to) { return &to.options.dealias; },
+                                     .check = check_dealiasing,
+                                     .known = known_dealiasings},
+                  .help = "How to dealias the velocity (VELD instead of VEL): {}"},
     PictureOption{.option = "--colors",
                   .old_option = "--colours",
                   .section = "picture",
@@ -357,6 +364,9 @@ const PictureOption& section_option() {
 
 const PictureOption& moment_option() {
     return row_of("moment");
+}
+const PictureOption& dealias_option() {
+    return row_of("dealias");
 }
 
 const PictureOption& colors_option() {

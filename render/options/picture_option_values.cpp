@@ -79,6 +79,15 @@ Status check_moment(const std::string& name) {
     return moment ? Status{} : pass_on(moment);
 }
 
+std::string known_dealiasings() {
+    return retrieve::dealiasing_names();
+}
+
+Status check_dealiasing(const std::string& name) {
+    const auto rung = retrieve::dealiasing_from_name(name);
+    return rung ? Status{} : pass_on(rung);
+}
+
 Status check_time_zone(const std::string& zone) {
     if (format_local(UtcTime{}, zone)) return {};
     return fail(ErrorCode::bad_argument, "the time zone '{}' is not known on this machine",

@@ -39,6 +39,8 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_smoothing(const std::string& name);
 // Return the known names, for help.
 [[nodiscard]] std::string known_moments();
+[[nodiscard]] std::string known_dealiasings();
+[[nodiscard]] Status check_dealiasing(const std::string& name);
 [[nodiscard]] std::string known_smoothings();
 
 // Returns true if colors come from a file and not from a table by name.

@@ -81,6 +81,18 @@ Status check_ranges(SceneOptions options) {
     return {};
 }
 
+// Returns the moment to draw, which is VELD for VEL if the options ask for dealiasing.
+Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOptions& options) {
+    const auto rung = retrieve::dealiasing_from_name(options.dealias);
+    if (!rung) return fail(ErrorCode::bad_argument, "{}", rung.error().message);
+    const bool is_velocity = level2::measured_moment(moment) == level2::Moment::vel;
+    if (*rung == retrieve::Dealiasing::off || (!is_velocity && !options.panels.empty()))
+        return moment;
+    if (is_velocity) return level2::Moment::veld;
+    return fail(ErrorCode::bad_argument, "{} is for velocity; the moment is {}",
+                spelled(dealias_option(), options), level2::moment_name(moment));
+}
+
 }  // namespace
 
 Result<Scene> scene_of(const SceneOptions& options) {
@@ -93,7 +105,9 @@ Result<Scene> scene_of(const SceneOptions& options) {
     scene.product = *product;
     const auto moment = moment_named(options.moment);
     if (!moment) return fail(ErrorCode::bad_argument, "the moment {}", moment.error().message);
-    scene.moment = *moment;
+    const auto shown = dealiased_moment(*moment, options);
+    if (!shown) return pass_on(shown);
+    scene.moment = *shown;
     const auto theme = theme_from_name(options.theme);
     if (!theme) return pass_on(theme);
     scene.theme = *theme;

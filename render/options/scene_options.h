@@ -19,6 +19,7 @@
 #include "stormcellar/render/animation.h"
 #include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/scene.h"
+#include "stormcellar/retrieve/dealias.h"
 
 namespace stormcellar::render {
 
@@ -31,6 +32,7 @@ enum class Spelling { option, parameter };  // "--tilt", "tilt"
 struct SceneOptions {
     std::string product = "volume";
     std::string moment{level2::moment_name(level2::Moment::ref)};
+    std::string dealias{retrieve::dealiasing_name(retrieve::Dealiasing::off)};
     std::string theme{theme_name(Theme::dark)};
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment

@@ -28,16 +28,18 @@ void note_states(ColumnSummary& column, int lowest_seen, bool has_no_echo, bool 
 // Summarizes a whole run of 16 cells; cells beyond the top of the grid are stored as not seen.
 // There are no branches in the loop, so that the compiler handles all cells at once.
 template <class Code>
-void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) {
+void note_codes(ColumnSummary& column, const std::byte* codes, int first_level, Code first_code) {
     std::array<Code, brick_edge> run{};
     std::memcpy(run.data(), codes, sizeof(run));
     Code largest = 0;
     Code no_echo = 0;
     Code folded = 0;
+    Code ambiguous = 0;
     for (const Code code : run) {
         largest = std::max(largest, code);
         no_echo = static_cast<Code>(no_echo | (code == 1 ? 1 : 0));
         folded = static_cast<Code>(folded | (code == 2 ? 1 : 0));
+        ambiguous = static_cast<Code>(ambiguous | (code == first_code - 1 ? 1 : 0));
     }
     if (largest == 0) return;
     if (column.lowest_seen == ColumnSummary::never) {
@@ -46,7 +48,9 @@ void note_codes(ColumnSummary& column, const std::byte* codes, int first_level) 
     }
     column.has_no_echo = column.has_no_echo || no_echo != 0;
     column.has_range_folded = column.has_range_folded || folded != 0;
-    if (largest >= grid::first_value_code) {
+    if (first_code > grid::first_value_code)
+        column.has_ambiguous = column.has_ambiguous || ambiguous != 0;
+    if (largest >= first_code) {
         column.max_code = std::max(column.max_code, std::uint16_t{largest});
     }
 }
@@ -119,10 +123,12 @@ void summarize_brick(const BrickView& view, int bx, int by, int bz,
         view.codes.data() +
         brick * grid::brick_cells * static_cast<std::size_t>(view.quantization.code_bytes);
     const bool in_bytes = view.quantization.code_bytes == 1;
+    const std::uint16_t first_code = view.quantization.first_code();
     for_each_column(view, bx, by, columns, [&](ColumnSummary& column, std::size_t cell) {
-        if (!in_bytes) return note_codes<std::uint16_t>(column, codes + 2 * cell, first);
+        if (!in_bytes)
+            return note_codes<std::uint16_t>(column, codes + 2 * cell, first, first_code);
         if (!note_plain_bytes(column, codes + cell, first))
-            note_codes<std::uint8_t>(column, codes + cell, first);
+            note_codes(column, codes + cell, first, static_cast<std::uint8_t>(first_code));
     });
 }
 

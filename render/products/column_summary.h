@@ -19,12 +19,14 @@ struct ColumnSummary {
     std::uint16_t max_code = 0;         // over the cells with a value; 0: none
     bool has_no_echo = false;
     bool has_range_folded = false;
+    bool has_ambiguous = false;
 
-    // Returns the state of the column maximum: a value if any cell has one; else range folded if
-    // any cell is range folded, because the echo behind it is unknown; else no echo if any cell was
-    // seen.
+    // Returns the state of the column maximum: a value if any cell has one; else ambiguous if any
+    // cell is ambiguous; else range folded if any cell is range folded, because the echo behind it
+    // is unknown; else no echo if any cell was seen.
     [[nodiscard]] grid::CellStatus status() const {
         if (max_code > 0) return grid::CellStatus::value;
+        if (has_ambiguous) return grid::CellStatus::ambiguous;
         if (has_range_folded) return grid::CellStatus::range_folded;
         return has_no_echo ? grid::CellStatus::no_echo : grid::CellStatus::not_seen;
     }

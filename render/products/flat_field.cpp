@@ -45,7 +45,7 @@ FlatField for_each_column(const BrickView& view, int threads, const Work& work) 
 CellStatus state_without_value(const ColumnCells& cells) {
     bool seen = false;
     for (const CellStatus status : cells.status) {
-        if (status == CellStatus::range_folded) return status;
+        if (status == CellStatus::range_folded || status == CellStatus::ambiguous) return status;
         seen = seen || status != CellStatus::not_seen;
     }
     return seen ? CellStatus::no_echo : CellStatus::not_seen;
@@ -169,9 +169,9 @@ void read_column(const BrickView& view, int ix, int iy, ColumnCells& cells) {
             } else {
                 std::memcpy(&code, codes + 2 * z, sizeof code);
             }
-            const bool valued = code >= grid::first_value_code;
-            cells.status[at + z] = valued ? CellStatus::value : static_cast<CellStatus>(code);
-            if (valued) cells.values[at + z] = view.quantization.value_of(code);
+            cells.status[at + z] = view.quantization.status_of(code);
+            if (cells.status[at + z] == CellStatus::value)
+                cells.values[at + z] = view.quantization.value_of(code);
         }
     }
 }

@@ -175,6 +175,8 @@ Rgba8 shade_of(grid::CellStatus status, float value, bool at_least, const ColorT
         }
         case grid::CellStatus::range_folded:
             return over(table.range_folded, plain);
+        case grid::CellStatus::ambiguous:
+            return hatched(plain, table.range_folded, patch.x, patch.y, look.scale);
         case grid::CellStatus::no_echo:
             return plain;
         case grid::CellStatus::not_seen:

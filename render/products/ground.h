@@ -46,7 +46,7 @@ struct GroundPatch {
         return mixed(look.shades->land.*which, look.shades->water.*which, water);
     }
     [[nodiscard]] Rgba8 unseen(const GroundLook& look) const {
-        return hatched(shade(look, &GroundShades::not_seen), *look.shades, x, y, look.scale);
+        return hatched(shade(look, &GroundShades::not_seen), look.shades->hatch, x, y, look.scale);
     }
 };
 

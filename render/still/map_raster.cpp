@@ -33,6 +33,11 @@ Rgba8 overlay_color(grid::CellStatus status, float value, const ColorTable& tabl
             return clear;
         case grid::CellStatus::range_folded:
             return table.range_folded;
+        case grid::CellStatus::ambiguous: {
+            Rgba8 half = table.range_folded;
+            half[3] /= 2;
+            return half;
+        }
         case grid::CellStatus::value:
             return color_of(table, value).value_or(clear);
     }

@@ -139,7 +139,7 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
                 }
                 for (std::size_t cell = 0; cell < grid::brick_cells; ++cell) {
                     const std::uint16_t code = view.code_at(brick * grid::brick_cells + cell);
-                    if (code < grid::first_value_code) continue;
+                    if (code < view.quantization.first_code()) continue;
                     const int x = bx * grid::brick_edge + static_cast<int>(cell >> 8);
                     const int y = by * grid::brick_edge + static_cast<int>(cell >> 4 & 15);
                     const int z = bz * grid::brick_edge + static_cast<int>(cell & 15);

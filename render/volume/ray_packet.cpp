@@ -314,6 +314,7 @@ PacketVolume::PacketVolume(const grid::BrickView& view, const LevelPosition& lev
                            const TransferFunction& transfer_function)
     : codes(view.codes.data()),
       code_bytes(view.quantization.code_bytes),
+      last_state(view.quantization.first_code() - 1),
       brick_stride_x(view.bricks_y * view.bricks_z * static_cast<int>(grid::brick_cells)),
       brick_stride_y(view.bricks_z * static_cast<int>(grid::brick_cells)),
       last_x(view.spec->nx - 1),

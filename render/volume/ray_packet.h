@@ -38,6 +38,7 @@ struct PacketLight {
 struct PacketVolume {
     const std::byte* codes = nullptr;
     int code_bytes = 1;
+    std::int32_t last_state = 2;                          // the highest code that means a state
     std::int32_t brick_stride_x = 0, brick_stride_y = 0;  // codes from brick to brick
     const std::byte* words = nullptr;  // of a CornerTable; null: codes come from the bricks
     std::int32_t word_stride_x = 0, word_stride_y = 0;

@@ -192,7 +192,8 @@ HWY_INLINE FloatVec mean_of_all(const Corners& corners, const Places& at) {
 
 // Returns the weighted mean of the cells that have values. Sets `valued` to the sum of their
 // weights.
-HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, FloatVec& valued) {
+HWY_INLINE FloatVec mean_of_some(const PacketVolume& volume, const Corners& corners,
+                                 const Places& at, FloatVec& valued) {
     const Floats f;
     const FloatVec one = hn::Set(f, 1.0F);
     const FloatVec x0 = hn::Sub(one, at.x.beyond);
@@ -200,7 +201,7 @@ HWY_INLINE FloatVec mean_of_some(const Corners& corners, const Places& at, Float
     const FloatVec z0 = hn::Sub(one, at.z.beyond);
     const FloatVec column[4] = {hn::Mul(x0, y0), hn::Mul(at.x.beyond, y0), hn::Mul(x0, at.y.beyond),
                                 hn::Mul(at.x.beyond, at.y.beyond)};
-    const IntVec last_state = hn::Set(Ints(), grid::first_value_code - 1);
+    const IntVec last_state = hn::Set(Ints(), volume.last_state);
     FloatVec sum = hn::Zero(f);
     valued = hn::Zero(f);
     const auto add = [&](IntVec code, FloatVec weight) {
@@ -239,7 +240,7 @@ HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, 
         least = hn::Min(least, corners.code[c]);
         largest = hn::Max(largest, corners.code[c]);
     }
-    const IntVec last_state = hn::Set(i, grid::first_value_code - 1);
+    const IntVec last_state = hn::Set(i, volume.last_state);
     samples.bin = hn::Zero(i);
     samples.valued = hn::Zero(f);
     if (hn::AllFalse(i, hn::Gt(largest, last_state))) return false;
@@ -248,7 +249,7 @@ HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, 
     samples.valued = hn::Set(f, 1.0F);
     if (!hn::AllTrue(f, all)) {
         FloatVec valued;
-        const FloatVec some = mean_of_some(corners, at, valued);
+        const FloatVec some = mean_of_some(volume, corners, at, valued);
         code = hn::IfThenElse(all, code, some);
         samples.valued = hn::IfThenElse(all, samples.valued, valued);
     }

@@ -42,7 +42,7 @@ ReferenceMarcher::ReferenceMarcher(const grid::BrickView& view, const ColorTable
             const std::size_t column = view.offset_x(ix) + view.offset_y(iy);
             for (int iz = 0; iz < spec_.nz(); ++iz) {
                 const std::uint16_t code = view.code_at(column + view.offset_z(iz));
-                values_.push_back(code < grid::first_value_code
+                values_.push_back(code < view.quantization.first_code()
                                       ? std::numeric_limits<float>::quiet_NaN()
                                       : view.quantization.value_of(code));
             }

@@ -33,7 +33,7 @@ class ShadeField::Baker {
         : view_(view), geometry_(geometry), light_(light), volume_(volume), sizes_(sizes) {
         const float zero = std::min(0.0F, table.lowest());
         value_of_.resize(as_index(view.quantization.largest_code()) + 1);
-        for (std::size_t code = grid::first_value_code; code < value_of_.size(); ++code) {
+        for (std::size_t code = view.quantization.first_code(); code < value_of_.size(); ++code) {
             const float value = view.quantization.value_of(static_cast<std::uint16_t>(code));
             value_of_[code] = table.moment == level2::Moment::ref
                                   ? std::clamp(value - zero, 0.0F, highest_value - zero)
@@ -113,7 +113,7 @@ class ShadeField::Baker {
                static_cast<unsigned>(grid::CellStatus::no_echo);
     }
     void add(std::uint16_t code, float& sum, float& count) const {
-        const bool seen = code >= grid::first_value_code ||
+        const bool seen = code >= view_.quantization.first_code() ||
                           code == static_cast<std::uint16_t>(grid::CellStatus::no_echo);
         sum += value_of_[code];
         count += seen ? 1.0F : 0.0F;

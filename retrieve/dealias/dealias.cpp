@@ -149,7 +149,8 @@ void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiase
     }
 }
 
-Dealiased empty_folds(const level2::Volume& volume) {
+// Returns fold numbers of 0 for all velocity moments. `ambiguous` holds for gates in no sheet.
+Dealiased empty_folds(const level2::Volume& volume, bool ambiguous) {
     Dealiased dealiased;
     for (std::size_t s = 0; s < volume.sweeps.size(); ++s) {
         const level2::Sweep& sweep = volume.sweeps[s];
@@ -157,8 +158,8 @@ Dealiased empty_folds(const level2::Volume& volume) {
             if (sweep.moments[m].moment != level2::Moment::vel) continue;
             const std::size_t gates =
                 sweep.radials.size() * static_cast<std::size_t>(sweep.moments[m].gate_stride);
-            dealiased.sweeps.push_back(
-                {s, m, std::vector<std::int8_t>(gates, 0), std::vector<std::uint8_t>(gates, 0)});
+            dealiased.sweeps.push_back({s, m, std::vector<std::int8_t>(gates, 0),
+                                        std::vector<std::uint8_t>(gates, ambiguous ? 1 : 0)});
         }
     }
     return dealiased;
@@ -167,7 +168,10 @@ Dealiased empty_folds(const level2::Volume& volume) {
 }  // namespace
 
 Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
-    Dealiased dealiased = empty_folds(volume);
+    if (rung == Dealiasing::automatic)
+        rung = needs_dealiasing(volume) ? Dealiasing::anchored : Dealiasing::off;
+    Dealiased dealiased = empty_folds(volume, rung != Dealiasing::off);
+    dealiased.rung = rung;
     if (rung == Dealiasing::off) return dealiased;
     std::vector<VelocitySheet> sheets = velocity_sheets(volume);
     FoldedWind wind;

@@ -121,6 +121,9 @@ class SlowSweep {
                 case level2::GateStatus::range_folded:
                     answer.value.status = CellStatus::range_folded;
                     break;
+                case level2::GateStatus::ambiguous:
+                    answer.value.status = CellStatus::ambiguous;
+                    break;
                 case level2::GateStatus::no_data:
                     break;
             }

@@ -46,7 +46,7 @@ TEST(BuiltInTables, AreFoundByNameAndAllAreNamedOtherwise) {
 TEST(BuiltInTables, EachMomentHasOneOfItsOwnUnit) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = default_color_table(moment);
-        EXPECT_EQ(table.moment, moment);
+        EXPECT_EQ(table.moment, level2::measured_moment(moment));
         EXPECT_EQ(table.unit, unit_of(moment)) << table.name;
     }
     EXPECT_EQ(unit_of(Moment::vel), "m/s");
@@ -71,7 +71,7 @@ TEST(BuiltInTables, HaveTheWeatherServicesColors) {
 TEST(BuiltInTables, EachMomentHasASmoothOne) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = smooth_color_table(moment);
-        EXPECT_EQ(table.moment, moment);
+        EXPECT_EQ(table.moment, level2::measured_moment(moment));
         EXPECT_TRUE(table.name.starts_with("smooth-")) << table.name;
         EXPECT_FALSE(is_stepped(table)) << table.name;
     }

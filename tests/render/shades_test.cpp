@@ -133,7 +133,7 @@ TEST(Hatched, HasALineEveryNinePixelsOfAnyScale) {
             const double share = std::clamp(0.5 * scale + 0.5 - distance, 0.0, 1.0);
             const Rgba8 slow = mixed({0, 0, 0, 255}, shades::dark.hatch, share);
             const Rgba8 fast =
-                hatched({0, 0, 0, 255}, shades::dark, place / 3, place - place / 3, scale);
+                hatched({0, 0, 0, 255}, shades::dark.hatch, place / 3, place - place / 3, scale);
             ASSERT_EQ(fast, slow) << scale << " " << place;
         }
     }

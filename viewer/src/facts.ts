@@ -10,6 +10,7 @@ export const moments = {
     PHI: { unit: 'degree', mixing: 'circle', isDoppler: false },
     RHO: { unit: '1', mixing: 'mean', isDoppler: false },
     CFP: { unit: 'dB', mixing: 'mean', isDoppler: false },
+    VELD: { unit: 'm/s', mixing: 'mean', isDoppler: true },
 } as const;
 
 // Units by quantity, the usual one first.

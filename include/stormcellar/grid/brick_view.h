@@ -8,7 +8,8 @@
 //
 // Inside a brick z runs fastest, then y, then x. Bricks are in the same order.
 // Code 0 means not seen, 1 no echo and 2 range folded; from 3 on, value = first_value + step *
-// (code - 3).
+// (code - 3). In derived moments, code 3 means ambiguous, and values begin at code 4. Code 3 is
+// stored and counted like a value, so that the format of files is the same.
 //
 // Threads   A view is plain data over bytes that another object owns; any thread may read it.
 // Errors    None: indices must be within the grid.
@@ -26,12 +27,22 @@ namespace stormcellar::grid {
 inline constexpr int brick_edge = 16;
 inline constexpr std::size_t brick_cells = 4096;
 inline constexpr std::size_t state_block_bytes = brick_cells / 4;  // the states of a brick's cells
-inline constexpr std::uint16_t first_value_code = 3;
+inline constexpr std::uint16_t first_value_code = 3;  // from here on, bricks store codes
 
 struct Quantization {
-    int code_bytes = 1;       // 1 or 2
-    float first_value = -32;  // value of code 3
-    float step = 0.5F;        // the rounding error is at most step / 2
+    int code_bytes = 1;          // 1 or 2
+    float first_value = -32;     // value of code 3
+    float step = 0.5F;           // the rounding error is at most step / 2
+    bool has_ambiguous = false;  // code 3 means ambiguous
+
+    // Returns the first code that means a value.
+    [[nodiscard]] std::uint16_t first_code() const {
+        return has_ambiguous ? first_value_code + 1 : first_value_code;
+    }
+    [[nodiscard]] CellStatus status_of(std::uint16_t code) const {
+        if (code < first_value_code) return static_cast<CellStatus>(code);
+        return code < first_code() ? CellStatus::ambiguous : CellStatus::value;
+    }
 
     [[nodiscard]] float value_of(std::uint16_t code) const {
         return first_value + step * static_cast<float>(code - first_value_code);

@@ -1,4 +1,4 @@
-// stormcellar/grid/grid.h -- gridded values with their four-state status, dense in memory.
+// stormcellar/grid/grid.h -- gridded values with their status, dense in memory.
 //
 // Units     Values are in the unit of the moment; positions are in degrees and meters on WGS84,
 //           with heights above mean sea level.
@@ -6,6 +6,7 @@
 // Errors    None.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,14 +21,20 @@
 
 namespace stormcellar::grid {
 
-// The four states of a cell (docs/geometry.md). Every step from gate to pixel keeps them apart.
+// The states of a cell (docs/geometry.md). Every step from gate to pixel keeps them apart. Files
+// and interfaces have these numbers.
 enum class CellStatus : std::uint8_t {
     not_seen = 0,      // blind region, beyond range, missing radials or sweeps
     no_echo = 1,       // seen, below threshold
     range_folded = 2,  // echo from beyond the unambiguous range
     value = 3,
+    // 4 means "unavailable" in Zarr stores
+    ambiguous = 5,  // only in derived moments: echo whose value cannot be derived
 };
+inline constexpr std::size_t cell_status_count = 6;  // of an array with the states as indices
 [[nodiscard]] std::string_view cell_status_name(CellStatus status);
+// Returns the states that a cell of a grid of the moment can have, with rising numbers.
+[[nodiscard]] std::vector<CellStatus> states_of(level2::Moment moment);
 
 // Time of one sweep, and speed of the antenna (grid/sweep/sweep_clock.h).
 struct SweepTime {

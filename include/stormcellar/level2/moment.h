@@ -1,4 +1,5 @@
-// stormcellar/level2/moment.h -- the moments that a radar measures, and the facts about each.
+// stormcellar/level2/moment.h -- the moments that a radar measures or that the program derives from
+// them, and the facts about each.
 //
 // This is the only list of moments. Two rooms add facts in tables that have a row for every moment;
 // code with a missing row does not compile:
@@ -19,7 +20,7 @@
 namespace stormcellar::level2 {
 
 // Grid files hold these numbers, so do not change them; add a new moment at the end.
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp };
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld };
 
 // The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
@@ -33,6 +34,7 @@ struct NetcdfNames {
     std::string_view long_name = {};
     std::string_view cf = {};        // standard name in CF's own table
     std::string_view cfradial = {};  // standard name proposed by CfRadial 1.4, section 6.1
+    std::string_view variable = {};  // in CfRadial; empty: the moment's name
 };
 
 struct MomentFacts {
@@ -41,12 +43,17 @@ struct MomentFacts {
     std::string_view units = {};  // as CF writes them; "1" for a number without a unit
     NetcdfNames netcdf = {};
     Circle circle = Circle::none;
+    // True if values on both sides of zero are equally strong, as velocities are, so that the
+    // strongest of several values is the one farthest from zero.
+    bool is_signed = false;
     // True if the radar measures the moment with a high pulse rate, which makes the unambiguous
     // range short.
     bool is_doppler = false;
     // The lowest code that is a value. If this is 2, code 0 is below threshold and code 1 range
     // folded. If it is larger, all codes below it are flags (ICD 2620002, table XVII-I).
     std::uint16_t first_valid_code = 2;
+    // True if no radar sends the moment: the room `retrieve` derives it. Code 2 is ambiguous then.
+    bool is_derived = false;
 };
 
 inline constexpr auto moment_facts = std::to_array<MomentFacts>({
@@ -61,12 +68,14 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
       "radial_velocity_of_scatterers_away_from_instrument",
       "radial_velocity_of_scatterers_away_from_instrument"},
      Circle::nyquist,
+     true,
      true},
     {Moment::sw,
      "SW",
      "m/s",
      {"spectrum width of radial velocity", "", "doppler_spectrum_width"},
      Circle::none,
+     false,
      true},
     {Moment::zdr,
      "ZDR",
@@ -78,7 +87,18 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      {"differential phase, as measured (wrapped)", "", "differential_phase_hv"},
      Circle::full_turn},
     {Moment::rho, "RHO", "1", {"correlation coefficient", "", "cross_correlation_ratio_hv"}},
-    {Moment::cfp, "CFP", "dB", {"clutter filter power removed"}, Circle::none, false, 8},
+    {Moment::cfp, "CFP", "dB", {"clutter filter power removed"}, Circle::none, false, false, 8},
+    {Moment::veld,
+     "VELD",
+     "m/s",
+     {"radial velocity, away from the radar, dealiased",
+      "radial_velocity_of_scatterers_away_from_instrument",
+      "corrected_radial_velocity_of_scatterers_away_from_instrument", "VEL_dealiased"},
+     Circle::none,
+     true,
+     true,
+     3,
+     true},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
@@ -112,6 +132,11 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
 }
 [[nodiscard]] constexpr bool is_circular(Moment moment) {
     return facts_of(moment).circle != Circle::none;
+}
+
+// Returns the measured moment from which a derived moment comes, or the moment itself.
+[[nodiscard]] constexpr Moment measured_moment(Moment moment) {
+    return moment == Moment::veld ? Moment::vel : moment;
 }
 
 // Finds a moment by its name in upper case.

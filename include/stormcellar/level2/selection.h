@@ -19,9 +19,11 @@ struct Selection {
     std::vector<Moment> moments;         // empty: all
     std::vector<int> elevation_numbers;  // cuts of the VCP, from 1; empty: all
 
+    // Returns true for a chosen moment, and for a moment from which a chosen moment is derived.
     [[nodiscard]] bool wants(Moment moment) const {
-        return moments.empty() ||
-               std::find(moments.begin(), moments.end(), moment) != moments.end();
+        return moments.empty() || std::ranges::any_of(moments, [&](Moment chosen) {
+                   return chosen == moment || measured_moment(chosen) == moment;
+               });
     }
     [[nodiscard]] bool wants_cut(int elevation_number) const {
         return elevation_numbers.empty() ||

@@ -24,9 +24,10 @@
 namespace stormcellar::level2 {
 
 // The meaning of the code of a gate. Code 0 is below threshold and code 1 is range folded, except
-// in CFP, where codes 0 to 7 are flags and give no_data. A gate beyond the last gate of the radial
+// in CFP, where codes 0 to 7 are flags and give no_data. In derived moments, code 2 is ambiguous:
+// the gate has an echo, but its value cannot be derived. A gate beyond the last gate of the radial
 // is no_data.
-enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data };
+enum class GateStatus : std::uint8_t { valid, below_threshold, range_folded, no_data, ambiguous };
 
 enum class RadialStatus : std::uint8_t {
     start_of_elevation = 0,

@@ -17,7 +17,8 @@
 //           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
 //           (tests/retrieve/dealias_test.cpp). In noisy data the search may stop before the best
 //           solution. `ambiguous` marks half to three quarters of the wrong gates.
-// Errors    None. The fold number is 0 for gates without a value, for radials whose Nyquist
+// Errors    dealiasing_from_name() and add_dealiased_velocity() say what is wrong. dealias() has
+//           none: the fold number is 0 for gates without a value, for radials whose Nyquist
 //           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
 // Threads   Pure functions.
 #pragma once
@@ -25,14 +26,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "stormcellar/base/result.h"
 #include "stormcellar/level2/volume.h"
 
 namespace stormcellar::retrieve {
 
-enum class Dealiasing : std::uint8_t { off, profile, region, anchored };
+// `automatic` is `anchored`, or `off` if needs_dealiasing() finds no need.
+enum class Dealiasing : std::uint8_t { off, profile, region, anchored, automatic };
+
+// The words of options: off, profile, region, anchored, auto.
+[[nodiscard]] std::string_view dealiasing_name(Dealiasing rung);
+[[nodiscard]] std::string dealiasing_names();  // "off, auto, profile, region or anchored"
+// Errors: bad_argument, with the list of words.
+[[nodiscard]] Result<Dealiasing> dealiasing_from_name(std::string_view name);
 
 // Fold numbers of one moment of one sweep.
 struct SweepFolds {
@@ -40,8 +50,9 @@ struct SweepFolds {
     std::size_t moment = 0;  // index in the sweep
     // Rows as in the moment: radials x gate_stride.
     std::vector<std::int8_t> folds;
-    // 1 where the fold number is uncertain, because another number would fit nearly as well or
-    // because neighboring gates differ too much.
+    // 1 where the fold number is uncertain, because another number would fit nearly as well,
+    // because neighboring gates differ too much, or because the radial has no usable Nyquist
+    // velocity.
     std::vector<std::uint8_t> ambiguous;
 };
 
@@ -51,9 +62,24 @@ struct Dealiased {
     // the Nyquist velocity. Pairs inside a run (regions.h) do not count; both are 0 from `profile`.
     std::int64_t pairs = 0, jumps = 0;
     std::int64_t gates = 0, folded_gates = 0, ambiguous_gates = 0;
+    Dealiasing rung = Dealiasing::off;  // never `automatic`
 };
 
 // Finds the fold numbers of all velocity moments. With Dealiasing::off, all are 0.
 [[nodiscard]] Dealiased dealias(const level2::Volume& volume, Dealiasing rung);
+
+// Returns true if more than one in ten thousand pairs of adjacent gates differ by more than the
+// Nyquist velocity. A volume that needs no dealiasing by this test may still have isolated echo
+// that is folded as a whole.
+[[nodiscard]] bool needs_dealiasing(const level2::Volume& volume);
+
+// Adds the moment VELD after each velocity moment, with the same rows: raw + 2 n Nyquist, and the
+// flags of VEL. A gate is ambiguous if its fold number is uncertain, if its radial has no Nyquist
+// velocity, or if its velocity would exceed 320 m/s. Replaces VELD if the volume has it.
+// Errors: not_found if the volume has no velocities.
+[[nodiscard]] Result<Dealiased> add_dealiased_velocity(level2::Volume& volume, Dealiasing rung);
+// Returns a copy of the volume that has only velocities, VEL and VELD. Errors: as above.
+[[nodiscard]] Result<level2::Volume> dealiased_velocities(const level2::Volume& volume,
+                                                          Dealiasing rung);
 
 }  // namespace stormcellar::retrieve

@@ -28,8 +28,8 @@ export interface Bins {
     width: number;
 }
 
-// Chooses the bins of values for a table. Unless two stops are closer than the narrowest bin, their smallest distance is
-// a whole number of bins, so that the stops of an evenly spaced table begin bins. With a threshold `least`, bins are
+// Chooses the bins of values for a table. Unless two stops are closer than the narrowest bin, their smallest distance
+// is a whole number of bins, so that the stops of an evenly spaced table begin bins. With a threshold `least`, bins are
 // chosen as for a table that begins at the threshold, as the table of a saved file does (draft.ts).
 export function chooseBins(table: ColorTable, least = -Infinity): Bins {
     const { extinction } = table;

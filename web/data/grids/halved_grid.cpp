@@ -52,22 +52,25 @@ class BrickCodes {
     std::array<Code, grid::brick_cells> codes_{};
 };
 
-// Makes one cell from up to four. Codes below 3 are states.
+// Makes one cell from up to four.
 class CellHalver {
   public:
     CellHalver(const grid::Quantization& quantization, HalvedBy by, bool by_magnitude)
         : quantization_(quantization), by_(by), by_magnitude_(by_magnitude) {}
 
     void add(std::uint16_t code) {
+        const grid::CellStatus status = quantization_.status_of(code);
+        if (status == grid::CellStatus::ambiguous) ++ambiguous_;
+        if (status == grid::CellStatus::ambiguous) return;
         ++counts_[std::min<std::size_t>(code, 3)];
-        if (code < grid::first_value_code) return;
+        if (status != grid::CellStatus::value) return;
         sum_ += code;
         if (counts_[3] == 1 || is_greater(code)) greatest_ = code;
     }
     std::uint16_t finish() {
         const std::uint16_t code = by_ == HalvedBy::maximum ? maximum() : mean();
         counts_ = {};
-        sum_ = 0;
+        sum_ = ambiguous_ = 0;
         return code;
     }
 
@@ -80,20 +83,24 @@ class CellHalver {
     }
     [[nodiscard]] std::uint16_t maximum() const {
         if (counts_[3] > 0) return greatest_;
+        if (ambiguous_ > 0) return ambiguous_code;
         return counts_[2] > 0 ? 2 : counts_[1] > 0 ? 1 : 0;
     }
     [[nodiscard]] std::uint16_t mean() const {
         const auto [not_seen, no_echo, folded, values] = counts_;
-        if (folded > no_echo && folded > values) return 2;
+        const std::uint32_t unknown = folded + ambiguous_;
+        if (unknown > no_echo && unknown > values) return folded >= ambiguous_ ? 2 : ambiguous_code;
         if (no_echo > values) return 1;
         if (values > 0) return static_cast<std::uint16_t>((2 * sum_ + values) / (2 * values));
-        return folded > 0 ? 2 : 0;
+        return folded > 0 ? 2 : ambiguous_ > 0 ? ambiguous_code : 0;
     }
 
     const grid::Quantization& quantization_;
     HalvedBy by_;
     bool by_magnitude_;
+    static constexpr std::uint16_t ambiguous_code = 3;
     std::array<std::uint32_t, 4> counts_{};  // by state
+    std::uint32_t ambiguous_ = 0;
     std::uint32_t sum_ = 0;
     std::uint16_t greatest_ = 0;
 };
@@ -256,7 +263,7 @@ Result<std::shared_ptr<const grid::BrickGrid>> halved(const grid::BrickView& vie
                     "by: {} lies on a circle and has no mean; ask for by=maximum",
                     level2::moment_name(moment));
     }
-    const bool by_magnitude = level2::facts_of(moment).circle == level2::Circle::nyquist;
+    const bool by_magnitude = level2::facts_of(moment).is_signed;
     std::shared_ptr<const grid::BrickGrid> half = halved_once(view, by, by_magnitude);
     for (int i = 1; i < times; ++i)
         half = halved_once(half->view(), by, by_magnitude);

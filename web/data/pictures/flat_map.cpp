@@ -26,14 +26,9 @@ enum class Mixing { largest, farthest_from_zero, mean, first };
 Mixing mixing_of(const render::Scene& scene) {
     const render::ProductFacts& facts = render::facts_of(scene.product);
     if (!facts.unit.empty()) return Mixing::largest;
-    switch (level2::facts_of(scene.moment).circle) {
-        case level2::Circle::nyquist:
-            return Mixing::farthest_from_zero;
-        case level2::Circle::full_turn:
-            return Mixing::first;
-        case level2::Circle::none:
-            break;
-    }
+    const level2::MomentFacts& moment = level2::facts_of(scene.moment);
+    if (moment.circle == level2::Circle::full_turn) return Mixing::first;
+    if (moment.is_signed) return Mixing::farthest_from_zero;
     return render::look_of(scene.moment).shows_largest ? Mixing::largest : Mixing::mean;
 }
 
@@ -41,15 +36,17 @@ Mixing mixing_of(const render::Scene& scene) {
 struct CellsTogether {
     std::array<float, 4> values{};
     std::size_t count = 0;  // of the values
-    bool is_folded = false, is_seen = false;
+    bool is_folded = false, is_ambiguous = false, is_seen = false;
 
     void add(CellStatus status, float value) {
         if (status == CellStatus::value) values[count++] = value;
         is_folded = is_folded || status == CellStatus::range_folded;
+        is_ambiguous = is_ambiguous || status == CellStatus::ambiguous;
         is_seen = is_seen || status != CellStatus::not_seen;
     }
     [[nodiscard]] CellStatus status() const {
         if (count > 0) return CellStatus::value;
+        if (is_ambiguous) return CellStatus::ambiguous;
         if (is_folded) return CellStatus::range_folded;
         return is_seen ? CellStatus::no_echo : CellStatus::not_seen;
     }

@@ -73,10 +73,6 @@ std::string text_of_numbers(const std::vector<Number>& numbers) {
     return bytes;
 }
 
-CellStatus status_of_code(std::uint16_t code) {
-    return static_cast<CellStatus>(std::min(code, grid::first_value_code));
-}
-
 }  // namespace
 
 int chunk_levels(const grid::GridSpec& spec) {
@@ -93,7 +89,7 @@ std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place) {
             for_each_cell(x, y, z, [&](int ix, int iy, int iz) {
                 const std::uint16_t code =
                     view.code_at(view.offset_x(ix) + view.offset_y(iy) + view.offset_z(iz));
-                if (code >= grid::first_value_code)
+                if (code >= view.quantization.first_code())
                     values[cells.index(ix, iy, iz)] = view.quantization.value_of(code);
             });
         });
@@ -109,7 +105,7 @@ std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place) {
             for_each_cell(x, y, z, [&](int ix, int iy, int iz) {
                 CellStatus status = entry.uniform_status;
                 if (entry.kind == BrickKind::stored) {
-                    status = status_of_code(
+                    status = view.quantization.status_of(
                         view.code_at(view.offset_x(ix) + view.offset_y(iy) + view.offset_z(iz)));
                 } else if (entry.kind == BrickKind::status_only) {
                     status = view.status(ix, iy, iz);

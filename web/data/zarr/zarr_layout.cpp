@@ -69,13 +69,13 @@ std::vector<ZarrArray> fields_of(const cache::GridDescription& newest, std::size
     states.name = "status";
     states.number = ZarrNumber::int8;
     states.fill = status_unavailable;
-    states.attributes = json_of(netcdf::status_attributes());
+    states.attributes = json_of(netcdf::status_attributes(newest.moment));
     states.attributes.update(json_of(netcdf::reference_to_map(spec)));
     ZarrJson flags = ZarrJson::array();
     std::string meanings;
-    for (const std::string_view meaning : netcdf::status_meanings()) {
-        flags.push_back(flags.size());
-        meanings += std::string(meaning) + " ";
+    for (const grid::CellStatus state : grid::states_of(newest.moment)) {
+        flags.push_back(static_cast<int>(state));
+        meanings += std::string(grid::cell_status_name(state)) + " ";
     }
     flags.push_back(status_unavailable);
     states.attributes["flag_values"] = std::move(flags);

@@ -10,6 +10,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/sweep_choice.h"
 #include "stormcellar/level2/decode.h"
+#include "stormcellar/retrieve/dealias.h"
 #include "web/data/grids/compressed.h"
 #include "web/data/grids/packed_sweep.h"
 #include "web/doors/api/operations.h"
@@ -95,6 +96,21 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
+// Returns the volume as volume_of() does, but with velocities alone, which are dealiased.
+Answered<ApiState::DecodedVolume> dealiased_volume_of(const ApiCall& call,
+                                                      const FoundVolume& found) {
+    const std::string key = found.key + "/dealiased";
+    if (auto kept = call.state.find_volume(key)) return kept;
+    if (call.must_be_quick) return refuse(takes_long());
+    const auto measured = volume_of(call, found);
+    if (!measured) return measured;
+    auto made = retrieve::dealiased_velocities(**measured, retrieve::Dealiasing::automatic);
+    if (!made) return refuse(made.error());
+    auto dealiased = std::make_shared<const level2::Volume>(std::move(*made));
+    call.state.keep_volume(key, dealiased);
+    return dealiased;
+}
+
 // Returns the sweeps that `stormcellar frame --product ppi` would draw: for each moment one sweep
 // of each elevation.
 std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
@@ -115,13 +131,17 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
                    const std::set<std::pair<level2::Moment, std::size_t>>& chosen) {
     ApiJson moments = ApiJson::array();
     for (const level2::SweepMoment& gates : sweep.moments) {
-        moments.push_back({{"moment", level2::moment_name(gates.moment)},
-                           {"units", level2::moment_units(gates.moment)},
-                           {"first_gate_m", gates.first_gate_m},
-                           {"gate_spacing_m", gates.gate_spacing_m},
-                           {"gates", gates.gate_stride},
-                           {"bits", gates.word_size_bits},
-                           {"chosen", chosen.contains({gates.moment, number})}});
+        const auto add = [&](level2::Moment moment, int bits) {
+            moments.push_back({{"moment", level2::moment_name(moment)},
+                               {"units", level2::moment_units(moment)},
+                               {"first_gate_m", gates.first_gate_m},
+                               {"gate_spacing_m", gates.gate_spacing_m},
+                               {"gates", gates.gate_stride},
+                               {"bits", bits},
+                               {"chosen", chosen.contains({gates.moment, number})}});
+        };
+        add(gates.moment, gates.word_size_bits);
+        if (gates.moment == level2::Moment::vel) add(level2::Moment::veld, 16);
     }
     ApiJson json{{"sweep", number},
                  {"elevation_number", sweep.elevation_number},
@@ -170,7 +190,8 @@ Answer api_gates(const ApiCall& call) {
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto volume = volume_of(call, *found);
+        const auto volume = level2::facts_of(*moment).is_derived ? dealiased_volume_of(call, *found)
+                                                                 : volume_of(call, *found);
         if (!volume) return volume.error();
         auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
             const auto bytes =
