@@ -72,6 +72,15 @@ void add(FinestLengths& lengths, const Box& box) {
     shrink(lengths, across_m, box.top_m - box.base_m);
 }
 
+// The profile of a vortex has a kink at its radius; half of it keeps the mean velocity exact
+// enough.
+void add(FinestLengths& lengths, const Vortex& vortex) {
+    constexpr double of_the_radius = 0.5;
+    lengths.across_m = std::min(lengths.across_m, of_the_radius * vortex.radius_m);
+    lengths.cut_off =
+        lengths.cut_off || std::isfinite(vortex.base_m) || std::isfinite(vortex.top_m);
+}
+
 void normalize(std::vector<BeamNode>& nodes) {
     double sum = 0;
     for (const BeamNode& node : nodes) {
@@ -107,6 +116,10 @@ FinestLengths finest_lengths(const Weather& weather) {
     }
     for (const Box& box : weather.boxes) {
         add(lengths, box);
+    }
+    if (!weather.wind) return lengths;
+    for (const Vortex& vortex : weather.wind->vortices) {
+        add(lengths, vortex);
     }
     return lengths;
 }
@@ -149,13 +162,13 @@ std::vector<BeamNode> range_nodes(double pulse_length_m) {
 std::vector<Weather> single_features(const Weather& weather) {
     std::vector<Weather> singles;
     for (const Storm& storm : weather.storms) {
-        singles.push_back({{storm}, {}, {}});
+        singles.push_back({{storm}, {}, {}, weather.wind});
     }
     for (const Layer& layer : weather.layers) {
-        singles.push_back({{}, {layer}, {}});
+        singles.push_back({{}, {layer}, {}, weather.wind});
     }
     for (const Box& box : weather.boxes) {
-        singles.push_back({{}, {}, {box}});
+        singles.push_back({{}, {}, {box}, weather.wind});
     }
     return singles;
 }

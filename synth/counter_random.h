@@ -23,7 +23,8 @@ enum class Draw : std::uint32_t {
     clutter = 2,
     jitter = 3,
     missing = 4,
-    replay_fault = 5
+    replay_fault = 5,
+    gate_loss = 6
 };
 
 // The place that a number belongs to.

@@ -40,7 +40,10 @@ struct Instrument {
     double elevation_jitter_deg = 0;
     double missing_fraction = 0;  // share of the radials, at random
     std::vector<MissingSector> missing_radials;
-    std::vector<int> missing_cuts;  // from 1
+    std::vector<int> missing_cuts;     // from 1
+    double missing_gate_fraction = 0;  // share of the gates, at random
+    // Share of the gates without echo that show an isolated, weak echo of random velocity.
+    double speckle_fraction = 0;
     std::optional<Clutter> clutter;
 
     // Returns true if a gate is a mean over a volume of air, not a sample at a point.
@@ -48,7 +51,8 @@ struct Instrument {
     // Returns true if gates are more than point samples.
     [[nodiscard]] bool changes_gates() const {
         return has_volume() || noise_db > 0 || velocity_noise_mps > 0 || velocity_folding ||
-               range_folding || clutter.has_value();
+               range_folding || clutter.has_value() || missing_gate_fraction > 0 ||
+               speckle_fraction > 0;
     }
 };
 

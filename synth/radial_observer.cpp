@@ -226,9 +226,16 @@ void RadialObserver::walk(const Ray& ray, const std::vector<Disc>& discs, double
 
 void RadialObserver::observe(std::size_t row, std::size_t number, const level2::Radial& radial,
                              double t_s) {
+    aim(radial);
+    if (!scene_.instrument.changes_gates()) return observe_points(row, radial, t_s);
+    sample(radial, t_s);
+    folded_ = find_folded();
+    write_echoes(row, number);
+}
+
+void RadialObserver::sample(const level2::Radial& radial, double t_s) {
     const Instrument& instrument = scene_.instrument;
     aim(radial);
-    if (!instrument.changes_gates()) return observe_points(row, radial, t_s);
     std::fill(echoes_.begin(), echoes_.end(), GateEcho{no_echo_dbz, 0, 0});
     if (instrument.has_volume()) {
         sample_beam(radial, t_s);
@@ -236,8 +243,6 @@ void RadialObserver::observe(std::size_t row, std::size_t number, const level2::
         sample_points(radial, t_s);
     }
     if (instrument.clutter) add_clutter(radial);
-    folded_ = find_folded();
-    write_echoes(row, number);
 }
 
 void RadialObserver::write_gate(std::size_t row, std::size_t gate, const GateEcho& echo) {
@@ -349,17 +354,13 @@ std::vector<bool> RadialObserver::find_folded() const {
 }
 
 // Returns the radar's estimate for a gate, with or without echo.
-GateEcho RadialObserver::estimate(std::size_t number, std::size_t gate) const {
+GateEcho RadialObserver::estimate(const DrawPlace& place, std::size_t gate) const {
     const Instrument& instrument = scene_.instrument;
     GateEcho echo = echoes_[gate];
     const auto nyquist = static_cast<double>(nyquist_mps(cut_));
-    // noise has a uniform distribution of velocities
-    const double of_noise_mps = nyquist / std::numbers::sqrt3;
+    const double of_noise_mps = noise_width_mps(nyquist);
     if (instrument.noise_db > 0 || instrument.velocity_noise_mps > 0) {
-        const RandomWords words =
-            draw(instrument.seed, Draw::gate,
-                 {static_cast<std::uint32_t>(place_.volume), static_cast<std::uint32_t>(place_.cut),
-                  static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(gate)});
+        const RandomWords words = draw(instrument.seed, Draw::gate, place);
         const NormalPair normals = normals_of(words[0], words[1]);
         const double noise_dbz = limits_dbz_[gate] - static_cast<double>(cut_.snr_threshold_db);
         if (echo.dbz > no_echo_dbz) {
@@ -381,10 +382,21 @@ GateEcho RadialObserver::estimate(std::size_t number, std::size_t gate) const {
 }
 
 void RadialObserver::write_echoes(std::size_t row, std::size_t number) {
-    const bool noisy = scene_.instrument.noise_db > 0;
+    const Instrument& instrument = scene_.instrument;
+    const bool noisy = instrument.noise_db > 0;
+    const auto nyquist = static_cast<double>(nyquist_mps(cut_));
     for (std::size_t gate = 0; gate < echoes_.size(); ++gate) {
+        const DrawPlace place{static_cast<std::uint32_t>(place_.volume),
+                              static_cast<std::uint32_t>(place_.cut),
+                              static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(gate)};
+        if (is_missing_gate(instrument, place)) continue;
+        if (echoes_[gate].dbz == no_echo_dbz) {
+            const auto speckle = speckle_at(instrument, place, limits_dbz_[gate], nyquist);
+            if (speckle) write_gate(row, gate, *speckle);
+            if (speckle) continue;
+        }
         if (!noisy && !(echoes_[gate].dbz >= limits_dbz_[gate])) continue;
-        const GateEcho echo = estimate(number, gate);
+        const GateEcho echo = estimate(place, gate);
         if (echo.dbz >= limits_dbz_[gate]) write_gate(row, gate, echo);
     }
 }

@@ -30,6 +30,11 @@ class RadialObserver {
     // Fills a row. `number` counts the radials of the full turn, lost ones included.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
+    // Computes the echo of each gate along a radial before noise, folding, loss and speckle: the
+    // sample at its center, or the mean over the beam and the pulse, with clutter.
+    void sample(const level2::Radial& radial, double t_s);
+    [[nodiscard]] const std::vector<GateEcho>& echoes() const { return echoes_; }
+
     // Returns the observed moments. Do not call observe() after take().
     [[nodiscard]] std::vector<level2::SweepMoment> take();
 
@@ -86,7 +91,7 @@ class RadialObserver {
     [[nodiscard]] std::vector<bool> find_folded() const;
     void write_echoes(std::size_t row, std::size_t number);
     void write_gate(std::size_t row, std::size_t gate, const GateEcho& echo);
-    [[nodiscard]] GateEcho estimate(std::size_t number, std::size_t gate) const;
+    [[nodiscard]] GateEcho estimate(const DrawPlace& place, std::size_t gate) const;
     [[nodiscard]] std::size_t doppler_gates() const {
         return static_cast<std::size_t>(vel_.gate_stride);
     }

@@ -62,6 +62,8 @@ Instrument read_instrument(TomlTable table, int cuts) {
     instrument.azimuth_jitter_deg = table.number("azimuth_jitter_deg", jitters_deg).value_or(0);
     instrument.elevation_jitter_deg = table.number("elevation_jitter_deg", jitters_deg).value_or(0);
     instrument.missing_fraction = table.number("missing_fraction", {0, 1}).value_or(0);
+    instrument.missing_gate_fraction = table.number("missing_gate_fraction", {0, 1}).value_or(0);
+    instrument.speckle_fraction = table.number("speckle_fraction", {0, 1}).value_or(0);
     instrument.missing_cuts = read_cuts(table, "missing_cuts", cuts);
     for (TomlTable& sector : table.tables("missing_radials")) {
         instrument.missing_radials.push_back(read_sector(sector, cuts));

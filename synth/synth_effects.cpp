@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "synth/counter_random.h"
 #include "synth/truth.h"
 
 namespace stormcellar::synth {
@@ -34,6 +33,10 @@ double wrapped_mps(double velocity_mps, double nyquist_mps) {
     const double wrapped = velocity_mps - turns * 2 * nyquist_mps;
     // rounding moved it to the end of the interval
     return wrapped < nyquist_mps ? wrapped : -nyquist_mps;
+}
+
+int fold_number(double true_mps, double shown_mps, double nyquist_mps) {
+    return static_cast<int>(std::lround((true_mps - shown_mps) / (2 * nyquist_mps)));
 }
 
 std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
@@ -129,6 +132,26 @@ bool is_missing(const Instrument& instrument, const RadialPlace& place) {
              {static_cast<std::uint32_t>(place.volume), static_cast<std::uint32_t>(place.cut),
               static_cast<std::uint32_t>(place.radial), 0});
     return uniform_of(words[0]) < instrument.missing_fraction;
+}
+
+bool is_missing_gate(const Instrument& instrument, const DrawPlace& place) {
+    if (instrument.missing_gate_fraction <= 0) return false;
+    const RandomWords words = draw(instrument.seed, Draw::gate_loss, place);
+    return uniform_of(words[0]) < instrument.missing_gate_fraction;
+}
+
+std::optional<GateEcho> speckle_at(const Instrument& instrument, const DrawPlace& place,
+                                   double limit_dbz, double nyquist_mps) {
+    constexpr double most_over_db = 10;
+    if (instrument.speckle_fraction <= 0) return std::nullopt;
+    const RandomWords words = draw(instrument.seed, Draw::gate_loss, place);
+    if (uniform_of(words[1]) >= instrument.speckle_fraction) return std::nullopt;
+    return GateEcho{limit_dbz + most_over_db * uniform_of(words[2]),
+                    nyquist_mps * (2 * uniform_of(words[3]) - 1), noise_width_mps(nyquist_mps)};
+}
+
+double noise_width_mps(double nyquist_mps) {
+    return nyquist_mps / std::numbers::sqrt3;
 }
 
 }  // namespace stormcellar::synth

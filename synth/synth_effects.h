@@ -6,9 +6,11 @@
 // Threads   Pure functions. synth/counter_random.h gives the random numbers.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "synth/counter_random.h"
 #include "synth/instrument.h"
 #include "synth/vcp.h"
 
@@ -37,6 +39,10 @@ struct GateEcho {
 
 // Returns the aliased velocity: in [-nyquist, nyquist), off by a multiple of 2 nyquist.
 [[nodiscard]] double wrapped_mps(double velocity_mps, double nyquist_mps);
+
+// Returns the fold number: the whole number n that brings shown + 2 n nyquist nearest to the true
+// velocity. Noise below the Nyquist velocity does not change n.
+[[nodiscard]] int fold_number(double true_mps, double shown_mps, double nyquist_mps);
 
 // Returns which gates are folded because echo of several trips overlaps. The gates belong to one
 // radial and are equally spaced; `power` is Z over the square of the range. A gate is folded if its
@@ -83,5 +89,17 @@ struct RadialPlace {
     double azimuth_deg = 0;  // [0, 360)
 };
 [[nodiscard]] bool is_missing(const Instrument& instrument, const RadialPlace& place);
+
+// Returns true if the gate at `place` is lost.
+[[nodiscard]] bool is_missing_gate(const Instrument& instrument, const DrawPlace& place);
+
+// Returns the speckle of a gate without echo, if the gate has any: 0 to 10 dB above the limit of
+// detection, a velocity anywhere between -nyquist and nyquist, and the width of noise.
+[[nodiscard]] std::optional<GateEcho> speckle_at(const Instrument& instrument,
+                                                 const DrawPlace& place, double limit_dbz,
+                                                 double nyquist_mps);
+
+// Returns the deviation of velocities that are uniform in the Nyquist interval, as in noise.
+[[nodiscard]] double noise_width_mps(double nyquist_mps);
 
 }  // namespace stormcellar::synth

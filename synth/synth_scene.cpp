@@ -18,6 +18,8 @@ constexpr TomlRange speeds_mps{-200, 200};
 constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
 constexpr double km = 1000;
 
+constexpr TomlRange nyquists_mps{1, 63};  // 8-bit velocities end at 63 m/s
+
 // Reads a required key. If it is missing or wrong, notes a complaint and uses the least value.
 double needed_number(TomlTable& table, std::string_view key, TomlRange range) {
     if (!table.has(key)) table.complain(key, "is missing");
@@ -103,6 +105,12 @@ Cut read_cut(TomlTable& table) {
     cut.surveillance_prf = cut.waveform == Waveform::doppler ? 0 : 1;
     cut.doppler_prf = table.whole_number("doppler_prf", {4, 8}).value_or(6);
     if (!has_velocity(cut)) cut.doppler_prf = 0;
+    const auto nyquist_mps = table.number("nyquist_mps", nyquists_mps);
+    // Message 31 holds hundredths.
+    if (nyquist_mps) cut.nyquist_mps = static_cast<float>(std::round(*nyquist_mps * 100)) / 100.0F;
+    if (nyquist_mps && !has_velocity(cut)) {
+        table.complain("nyquist_mps", "is for cuts with velocity");
+    }
     return cut;
 }
 
@@ -240,6 +248,50 @@ Box read_box(TomlTable& table) {
     return box;
 }
 
+WindLevel read_wind_level(TomlTable& table) {
+    const Pair velocity_mps = needed_pair(table, "velocity_mps", speeds_mps);
+    return {table.number("height_km", heights_km).value_or(0) * km,
+            {velocity_mps.first, velocity_mps.second}};
+}
+
+Vortex read_vortex(TomlTable& table) {
+    Vortex vortex;
+    const Pair position_km = needed_pair(table, "position_km", places_km);
+    const Pair drift_mps = pair_or(table, "velocity_mps", speeds_mps, {});
+    vortex.x_m = position_km.first * km;
+    vortex.y_m = position_km.second * km;
+    vortex.motion = {drift_mps.first, drift_mps.second};
+    vortex.radius_m = needed_number(table, "radius_km", lengths_km) * km;
+    if (!table.has("tangential_mps") && !table.has("radial_mps")) {
+        table.complain("tangential_mps", "is missing, and so is radial_mps");
+    }
+    vortex.tangential_mps = table.number("tangential_mps", speeds_mps).value_or(0);
+    vortex.radial_mps = table.number("radial_mps", speeds_mps).value_or(0);
+    vortex.decay = table.number("decay", {0, 5}).value_or(1);
+    if (const auto base = table.number("base_km", heights_km)) vortex.base_m = *base * km;
+    if (const auto top = table.number("top_km", heights_km)) vortex.top_m = *top * km;
+    if (vortex.top_m <= vortex.base_m) table.complain("top_km", "must be above base_km");
+    return vortex;
+}
+
+Wind read_wind(TomlTable& table) {
+    Wind wind;
+    for (TomlTable& row : table.tables("level")) {
+        const WindLevel level = read_wind_level(row);
+        if (!wind.levels.empty() && level.height_m <= wind.levels.back().height_m) {
+            row.complain("height_km", "must be above the level before");
+        }
+        wind.levels.push_back(level);
+    }
+    for (TomlTable& row : table.tables("vortex")) {
+        wind.vortices.push_back(read_vortex(row));
+    }
+    if (wind.levels.empty() && wind.vortices.empty()) {
+        table.complain("level", "is missing, and so is vortex");
+    }
+    return wind;
+}
+
 // Returns the place of the radar in the plane about the weather's own origin; none if the radar is
 // the origin.
 std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
@@ -282,6 +334,7 @@ Result<Scene> scene_of(TomlFile& file, const std::string& name) {
     for (TomlTable& table : root.tables("box")) {
         scene.weather.boxes.push_back(read_box(table));
     }
+    if (auto wind = root.table("wind")) scene.weather.wind = read_wind(*wind);
     if (const auto stand = read_stand(root.section("weather"), scene.site)) {
         scene.weather = seen_from(scene.weather, *stand);
     }

@@ -16,28 +16,12 @@ double square(double number) {
     return number * number;
 }
 
-struct Offset {
-    double east_m = 0;
-    double north_m = 0;
-};
-
-// Turns an offset clockwise.
-Offset turned(const Offset& offset, double turn_deg) {
-    const double sine = std::sin(turn_deg * degree);
-    const double cosine = std::cos(turn_deg * degree);
-    return {offset.east_m * cosine + offset.north_m * sine,
-            offset.north_m * cosine - offset.east_m * sine};
-}
-
 // Moves a footprint into the plane of a radar at `stand`.
 void move(Footprint& footprint, const Stand& stand) {
-    const Offset place =
-        turned({footprint.x_m - stand.x_m, footprint.y_m - stand.y_m}, -stand.turn_deg);
-    const Offset motion =
-        turned({footprint.motion.east_mps, footprint.motion.north_mps}, -stand.turn_deg);
+    const Offset place = place_from(stand, footprint.x_m, footprint.y_m);
     footprint.x_m = place.east_m;
     footprint.y_m = place.north_m;
-    footprint.motion = {motion.east_m, motion.north_m};
+    footprint.motion = motion_from(stand, footprint.motion);
     footprint.orientation_deg -= stand.turn_deg;
 }
 
@@ -275,15 +259,20 @@ Weather seen_from(const Weather& weather, const Stand& stand) {
         move(box.footprint, stand);
         box.wave.azimuth_deg -= stand.turn_deg;
     }
+    if (there.wind) there.wind = seen_from(*there.wind, stand);
     return there;
 }
 
 Echo truth(const Weather& weather, const Point& point, double t_s) {
-    return sum_at(weather, point, t_s).echo();
+    Echo echo = sum_at(weather, point, t_s).echo();
+    if (weather.wind && echo.dbz > nothing) echo.motion = wind_at(*weather.wind, point, t_s);
+    return echo;
 }
 
 LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s) {
-    return sum_at(weather, point, t_s).linear();
+    LinearEcho echo = sum_at(weather, point, t_s).linear();
+    if (weather.wind && echo.z_mm6_m3 > 0) echo.motion = wind_at(*weather.wind, point, t_s);
+    return echo;
 }
 
 double truth_dbz(const Weather& weather, const Point& point, double t_s) {

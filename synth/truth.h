@@ -19,10 +19,10 @@
 //           an azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut off
 //           sharply at its base and its top.
 //
-// Units     Meters, seconds, m/s, dBZ, degrees. x points east and y north of the origin of the
-//           scene (the radar), in the azimuthal equidistant plane about it. z is the height above
-//           mean sea level, and t the time since the start of the scene. Directions are azimuths in
-//           degrees, clockwise from north.
+// The air that carries the echo moves with its feature, or with the wind if the weather has one.
+// The features themselves always drift by their own motions.
+//
+// Units     As in synth/plane.h; dBZ; t is the time in seconds since the start of the scene.
 // Accuracy  The formulas in double.
 // Threads   Pure functions.
 #pragma once
@@ -31,23 +31,15 @@
 #include <optional>
 #include <vector>
 
+#include "synth/plane.h"
+#include "synth/wind.h"
+
 namespace stormcellar::synth {
 
 inline constexpr double edge_dbz = 10;      // of a feature at its radii
 inline constexpr double weakest_dbz = -20;  // a feature ends below this
 // where there is no feature
 inline constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
-
-struct Point {
-    double x_m = 0;
-    double y_m = 0;
-    double z_m = 0;
-};
-
-struct Motion {
-    double east_mps = 0;
-    double north_mps = 0;
-};
 
 // An upright elliptic column, which drifts over the plane.
 struct Footprint {
@@ -122,15 +114,9 @@ struct Weather {
     std::vector<Storm> storms;
     std::vector<Layer> layers;
     std::vector<Box> boxes = {};
+    std::optional<Wind> wind = {};
 };
 
-// The place of another radar in the plane, and the angle by which its north is turned clockwise
-// from the plane's y, because meridians converge.
-struct Stand {
-    double x_m = 0;
-    double y_m = 0;
-    double turn_deg = 0;
-};
 // Returns the same weather in the plane about the radar at `stand`, as if both planes were one. The
 // error is the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m if
 // both radars are 200 km away.
@@ -139,8 +125,8 @@ struct Stand {
 // Returns the reflectivity, or minus infinity if there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
 
-// The reflectivity at a point, and the motion there: the mean over the features, weighted by their
-// reflectivities in mm^6/m^3; zero without echo.
+// The reflectivity at a point, and the motion of the air there: the wind, or else the mean motion
+// of the features, weighted by their reflectivities in mm^6/m^3; zero without echo.
 struct Echo {
     double dbz = 0;
     Motion motion;

@@ -153,7 +153,7 @@ bool has_velocity(const Cut& cut) {
     return cut.waveform != Waveform::surveillance;
 }
 float nyquist_mps(const Cut& cut) {
-    return facts_of(cut).nyquist_mps;
+    return cut.nyquist_mps > 0 ? cut.nyquist_mps : facts_of(cut).nyquist_mps;
 }
 float unambiguous_range_m(const Cut& cut) {
     return facts_of(cut).unambiguous_range_m;

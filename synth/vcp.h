@@ -32,6 +32,7 @@ struct Cut {
     int doppler_prf = 0;
     int doppler_pulses = 0;
     float snr_threshold_db = 2;
+    float nyquist_mps = 0;  // in hundredths; 0: as the PRF has it
 };
 
 struct Pattern {
@@ -47,7 +48,8 @@ struct Pattern {
 [[nodiscard]] const Pattern* find_pattern(int number);
 [[nodiscard]] std::span<const int> pattern_numbers();
 
-// Return the consequences of the PRFs of a cut.
+// Return the consequences of the PRFs of a cut. A Nyquist velocity of the cut itself goes before
+// the one of its PRF.
 [[nodiscard]] float nyquist_mps(const Cut& cut);
 [[nodiscard]] float unambiguous_range_m(const Cut& cut);
 [[nodiscard]] bool has_velocity(const Cut& cut);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -13,62 +13,41 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr double radian = std::numbers::pi / 180;
-
-double seen(double u, double v, double azimuth_deg, double elevation_deg) {
-    return (u * std::sin(azimuth_deg * radian) + v * std::cos(azimuth_deg * radian)) *
-           std::cos(elevation_deg * radian);
-}
-
-double uniform(double azimuth, double /*range*/, double elevation, double /*height*/) {
-    return seen(18, 22, azimuth, elevation);
-}
-
-// A wind that changes from 8 m/s from the south at the antenna to 45 m/s from the west at 8 km.
-double sheared(double azimuth, double /*range*/, double elevation, double height) {
-    const double part = std::min(height / 8000, 1.0);
-    return seen(45 * part, 8 * (1 - part), azimuth, elevation);
-}
-
+const synth::Wind uniform{{{0, {18, 22}}}};
+// The wind turns from 8 m/s from the south at the antenna to 45 m/s from the west at 8 km.
+const synth::Wind sheared{{{0, {0, 8}}, {8000, {45, 0}}}};
 // A Rankine vortex of 50 m/s at 10 km from its center, 45 km east of the radar, in a wind of 10
 // m/s.
-double vortex(double azimuth, double range, double elevation, double /*height*/) {
-    const double x = range * std::sin(azimuth * radian) - 45'000;
-    const double y = range * std::cos(azimuth * radian);
-    const double radius = std::max(std::hypot(x, y), 1.0);
-    const double speed = radius < 10'000 ? 50 * radius / 10'000 : 50 * 10'000 / radius;
-    return seen(10 - speed * y / radius, speed * x / radius, azimuth, elevation);
-}
-
-struct Wind {
-    const char* name;
-    RadialVelocity velocity;
-};
+const synth::Wind vortex{
+    {{0, {10, 0}}},
+    {{.x_m = 45'000, .radius_m = 10'000, .tangential_mps = 50}}};
 
 class SyntheticWind : public ::testing::TestWithParam<double> {};
 
 // At every Nyquist velocity, 99.9 % of the gates must be right, and no sweep may be wrong as a
 // whole.
 TEST_P(SyntheticWind, IsUnfolded) {
-    for (const Wind& wind : {Wind{"uniform", uniform}, {"sheared", sheared}, {"vortex", vortex}}) {
+    for (const auto& [name, wind] : {std::pair{"uniform", &uniform}, std::pair{"sheared", &sheared},
+                                     std::pair{"vortex", &vortex}}) {
         FoldedSpec spec;
         spec.nyquist_mps = GetParam();
-        const FoldedVolume folded = fold(spec, wind.velocity);
+        const FoldedVolume folded = fold(spec, *wind);
         const Score found = score(folded, dealias(folded.volume, Dealiasing::anchored));
         EXPECT_GT(found.gates, 600'000);
-        EXPECT_LE(found.wrong_share(), 0.001) << wind.name;
-        EXPECT_LE(found.worst_sweep, 0.005) << wind.name;
+        EXPECT_LE(found.wrong_share(), 0.001) << name;
+        EXPECT_LE(found.worst_sweep, 0.005) << name;
     }
 }
 INSTANTIATE_TEST_SUITE_P(Nyquist, SyntheticWind, ::testing::Values(8.0, 12.0, 16.0, 24.0, 33.0));
 
 // Two storms with no echo between them: only the wind says how often the far one is folded.
 TEST(Dealias, AnIsolatedStormIsAnchoredToTheWind) {
-    const auto storms = [](double azimuth, double range, double elevation, double height) {
+    const RadialVelocity wind = along_beam(uniform);
+    const auto storms = [&](double azimuth, double range, double elevation, double height) {
         const bool is_near = range < 30'000;
         const bool is_far = azimuth > 40 && azimuth < 70 && range > 70'000 && range < 90'000;
         if (!is_near && !is_far) return std::numeric_limits<double>::quiet_NaN();
-        return uniform(azimuth, range, elevation, height);
+        return wind(azimuth, range, elevation, height);
     };
     FoldedSpec spec;
     spec.nyquist_mps = 10;

@@ -2,73 +2,112 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <limits>
 
+#include "base/degree.h"
 #include "stormcellar/grid/beam_geometry.h"
+#include "synth/synth_effects.h"
 
 namespace stormcellar::retrieve {
 namespace {
 
 constexpr double scale = 2;  // codes are half meters a second, as the radar sends them
 constexpr double offset = 129;
+constexpr double first_gate_m = 2000;
 
-struct Coded {
-    std::uint16_t code = 0;
+grid::BeamGeometry beam_of_radar() {
+    return {35, 0};
+}
+
+struct Gate {
+    std::uint8_t code = 0;
     std::int8_t fold = 0;
+    double true_mps = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Returns the code of the folded velocity, and the fold number that restores the true velocity.
-Coded code_of(double velocity_mps, double nyquist_mps) {
-    const double turn = 2 * nyquist_mps;
-    const double folds = std::round(velocity_mps / turn);
-    const double raw = std::clamp(velocity_mps - folds * turn, -63.0, 63.0);
-    return {static_cast<std::uint16_t>(std::lround(raw * scale + offset)),
-            static_cast<std::int8_t>(folds)};
+// Returns what a gate shows of its true velocity; NaN shows nothing.
+Gate observe_gate(const FoldedSpec& spec, const synth::DrawPlace& place, double true_mps) {
+    const synth::RandomWords words = synth::draw(spec.seed, synth::Draw::gate, place);
+    Gate gate;
+    if (synth::uniform_of(words[2]) < spec.missing) return gate;
+    const bool is_speckle = synth::uniform_of(words[3]) < spec.speckle;
+    if (std::isnan(true_mps) && !is_speckle) return gate;
+    const double received_mps =
+        is_speckle ? spec.nyquist_mps * (2 * synth::uniform_of(words[0]) - 1)
+                   : true_mps + spec.noise_mps * synth::normals_of(words[0], words[1]).first;
+    const double raw_mps =
+        std::clamp(synth::wrapped_mps(received_mps, spec.nyquist_mps), -63.0, 63.0);
+    gate.code = static_cast<std::uint8_t>(std::lround(raw_mps * scale + offset));
+    if (is_speckle) return gate;
+    gate.true_mps = true_mps;
+    gate.fold = static_cast<std::int8_t>(synth::fold_number(true_mps, raw_mps, spec.nyquist_mps));
+    return gate;
+}
+
+level2::Sweep sweep_of(const FoldedSpec& spec, double elevation_deg) {
+    level2::Sweep sweep;
+    for (int row = 0; row < spec.radials; ++row) {
+        level2::Radial radial;
+        radial.azimuth_deg = static_cast<float>((row + 0.5) * 360.0 / spec.radials);
+        radial.elevation_deg = static_cast<float>(elevation_deg);
+        radial.nyquist_mps = static_cast<float>(spec.nyquist_mps);
+        sweep.radials.push_back(radial);
+    }
+    level2::SweepMoment moment;
+    moment.moment = level2::Moment::vel;
+    moment.first_gate_m = static_cast<std::int32_t>(first_gate_m);
+    moment.gate_spacing_m = static_cast<std::int32_t>(spec.gate_spacing_m);
+    moment.gate_stride = spec.gates;
+    moment.scale = static_cast<float>(scale);
+    moment.offset = static_cast<float>(offset);
+    moment.gate_counts.assign(static_cast<std::size_t>(spec.radials),
+                              static_cast<std::uint16_t>(spec.gates));
+    sweep.moments.push_back(std::move(moment));
+    return sweep;
 }
 
 }  // namespace
 
+RadialVelocity along_beam(const synth::Wind& wind) {
+    return [wind, beam = beam_of_radar()](double azimuth_deg, double range_m, double elevation_deg,
+                                          double height_m) {
+        const double arc_m = beam.forward({range_m, elevation_deg}).arc_m;
+        const synth::Point point{arc_m * std::sin(azimuth_deg * degree),
+                                 arc_m * std::cos(azimuth_deg * degree), height_m};
+        return synth::away_mps(synth::wind_at(wind, point, 0), azimuth_deg, elevation_deg);
+    };
+}
+
+FoldedVolume fold(const FoldedSpec& spec, const synth::Wind& wind) {
+    return fold(spec, along_beam(wind));
+}
+
 FoldedVolume fold(const FoldedSpec& spec, const RadialVelocity& velocity) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> noise(0, std::max(spec.noise_mps, 1e-9));
-    std::uniform_real_distribution<double> chance(0, 1);
-    const grid::BeamGeometry beam(35, 0);
+    const grid::BeamGeometry beam = beam_of_radar();
     FoldedVolume folded;
     for (const double elevation : spec.elevations_deg) {
-        level2::Sweep sweep;
+        level2::Sweep sweep = sweep_of(spec, elevation);
         sweep.elevation_number = static_cast<int>(folded.volume.sweeps.size()) + 1;
-        level2::SweepMoment moment;
-        moment.moment = level2::Moment::vel;
-        moment.first_gate_m = 2000;
-        moment.gate_spacing_m = static_cast<std::int32_t>(spec.gate_spacing_m);
-        moment.gate_stride = spec.gates;
-        moment.scale = static_cast<float>(scale);
-        moment.offset = static_cast<float>(offset);
-        moment.gate_counts.assign(static_cast<std::size_t>(spec.radials),
-                                  static_cast<std::uint16_t>(spec.gates));
         std::vector<std::int8_t> folds;
-        for (int radial = 0; radial < spec.radials; ++radial) {
-            level2::Radial of;
-            of.azimuth_deg = static_cast<float>((radial + 0.5) * 360.0 / spec.radials);
-            of.elevation_deg = static_cast<float>(elevation);
-            of.nyquist_mps = static_cast<float>(spec.nyquist_mps);
-            sweep.radials.push_back(of);
-            for (int gate = 0; gate < spec.gates; ++gate) {
-                const double range = 2000 + gate * spec.gate_spacing_m;
+        std::vector<double> true_mps;
+        synth::DrawPlace place;
+        place.cut = static_cast<std::uint32_t>(sweep.elevation_number);
+        for (const level2::Radial& radial : sweep.radials) {
+            for (place.gate = 0; static_cast<int>(place.gate) < spec.gates; ++place.gate) {
+                const double range = first_gate_m + place.gate * spec.gate_spacing_m;
                 const double height = beam.forward({range, elevation}).height_m;
-                const double true_mps =
-                    velocity(static_cast<double>(of.azimuth_deg), range, elevation, height) +
-                    noise(random);
-                Coded coded;
-                if (!std::isnan(true_mps) && chance(random) >= spec.missing)
-                    coded = code_of(true_mps, spec.nyquist_mps);
-                moment.codes8.push_back(static_cast<std::uint8_t>(coded.code));
-                folds.push_back(coded.fold);
+                const Gate gate = observe_gate(
+                    spec, place,
+                    velocity(static_cast<double>(radial.azimuth_deg), range, elevation, height));
+                sweep.moments[0].codes8.push_back(gate.code);
+                folds.push_back(gate.fold);
+                true_mps.push_back(gate.true_mps);
             }
+            ++place.radial;
         }
-        sweep.moments.push_back(std::move(moment));
         folded.volume.sweeps.push_back(std::move(sweep));
         folded.folds.push_back(std::move(folds));
+        folded.true_mps.push_back(std::move(true_mps));
     }
     return folded;
 }
@@ -80,7 +119,7 @@ Score score(const FoldedVolume& truth, const Dealiased& found) {
         const SweepFolds& folds = found.sweeps[s];
         std::int64_t gates = 0, wrong = 0;
         for (std::size_t i = 0; i < folds.folds.size(); ++i) {
-            if (moment.codes8[i] < 2) continue;
+            if (moment.codes8[i] < 2 || std::isnan(truth.true_mps[s][i])) continue;
             ++gates;
             const bool is_marked = folds.ambiguous[i] != 0;
             score.marked += is_marked ? 1 : 0;

@@ -1,4 +1,8 @@
-// tests/retrieve/folded_volume.h -- makes volumes whose true velocities are known.
+// tests/retrieve/folded_volume.h -- makes volumes whose true velocities are known, quickly: the air
+// has echo everywhere, and no reflectivity is simulated.
+//
+// The antenna is at 35 degrees north and sea level. The noise of a gate depends on the seed, the
+// sweep, the radial and the gate alone.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +11,7 @@
 
 #include "stormcellar/level2/volume.h"
 #include "stormcellar/retrieve/dealias.h"
+#include "synth/wind.h"
 
 namespace stormcellar::retrieve {
 
@@ -17,6 +22,8 @@ struct FoldedSpec {
     double gate_spacing_m = 250;
     double noise_mps = 1;
     double missing = 0.05;  // share of gates
+    double speckle = 0;     // share of gates with a random velocity, which score() leaves out
+    std::uint32_t seed = 1;
 };
 
 // The velocity of a gate; NaN where there is no echo. Azimuth clockwise from north; height above
@@ -24,13 +31,19 @@ struct FoldedSpec {
 using RadialVelocity = std::function<double(double azimuth_deg, double range_m,
                                             double elevation_deg, double height_m)>;
 
+// Returns the component of a wind along the beam, at the start of its scene.
+[[nodiscard]] RadialVelocity along_beam(const synth::Wind& wind);
+
 struct FoldedVolume {
     level2::Volume volume;
     // The right fold numbers of each sweep, in rows like the velocities of the sweep.
     std::vector<std::vector<std::int8_t>> folds;
+    // The true velocities without noise; NaN where the gate holds no velocity of the wind.
+    std::vector<std::vector<double>> true_mps;
 };
 
 [[nodiscard]] FoldedVolume fold(const FoldedSpec& spec, const RadialVelocity& velocity);
+[[nodiscard]] FoldedVolume fold(const FoldedSpec& spec, const synth::Wind& wind);
 
 struct Score {
     std::int64_t gates = 0, wrong = 0, wrong_unmarked = 0, marked = 0;
