@@ -4,13 +4,15 @@
 // center, at the time of its radial, along a beam over an earth of 4/3 radius
 // (stormcellar/grid/beam_geometry.h). Reflectivity below the radar's detection limit
 // (grid/beam/detection_limit.h, with the calibration of the radials) is code 0. Velocity is the
-// radial part of the motion of the features, positive away from the radar. It is not aliased, and
-// is clamped at +-63 m/s. The spectrum width is 2 m/s wherever there is a velocity. Gates reach as
-// far as in real volumes: to a height of 21.3 km (70,000 ft), reflectivity to 460 km and the other
-// moments to 300 km. The first center is at 2,125 m, and gates are 250 m apart.
+// radial part of the wind of the scene, or else of the motion of the features, positive away from
+// the radar. It is not aliased, and is clamped at +-63 m/s. The spectrum width is 2 m/s wherever
+// there is a velocity. Gates reach as far as in real volumes: to a height of 21.3 km (70,000 ft),
+// reflectivity to 460 km and the other moments to 300 km. The first center is at 2,125 m, and gates
+// are 250 m apart.
 //
 // The effects come in this order: the mean over the beam and the pulse; clutter; range folding
-// (code 1 in VEL and SW, in Doppler and batch cuts); noise; velocity folding; the detection limit.
+// (code 1 in VEL and SW, in Doppler and batch cuts); noise; velocity folding; the detection limit;
+// speckle; missing gates.
 // Lost radials are missing in their sweep, and sweeps without radials are missing in the volume.
 // Numbers then have gaps, as in real volumes.
 //

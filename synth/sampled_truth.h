@@ -5,10 +5,10 @@
 // Model     The weather is in the azimuthal equidistant plane about the scene's radar
 //           (stormcellar/grid/site_frame.h), so azimuth and arc from there are exact. East and
 //           north of a motion are directions in that plane. Radial velocity is the component of
-//           the horizontal motion away from the site, times the cosine of the elevation at the
-//           antenna, as in synth/observe.h. From a site other than the scene's, directions are
-//           taken in the plane, whose scale errs by (arc / earth radius)^2 / 6 across the radius,
-//           0.02 % at 230 km.
+//           the wind, or else of the motion of the features, away from the site, times the cosine
+//           of the elevation at the antenna, as in synth/observe.h. From a site other than the
+//           scene's, directions are taken in the plane, whose scale errs by (arc / earth radius)^2
+//           / 6 across the radius, 0.02 % at 230 km.
 // Accuracy  Places within 1e-6 m up to 500 km away; echo as in synth/truth.h. Enforced by
 //           tests/synth/sampled_truth_test.cpp.
 // Threads   Immutable; the scene must outlive it.

@@ -18,7 +18,7 @@ constexpr TomlRange speeds_mps{-200, 200};
 constexpr TomlRange peaks_dbz{edge_dbz + 1, 90};
 constexpr double km = 1000;
 
-constexpr TomlRange nyquists_mps{1, 63};  // 8-bit velocities end at 63 m/s
+constexpr TomlRange nyquists_mps{2, 63};  // 8-bit velocities end at 63 m/s
 
 // Reads a required key. If it is missing or wrong, notes a complaint and uses the least value.
 double needed_number(TomlTable& table, std::string_view key, TomlRange range) {

@@ -25,9 +25,11 @@ Motion wind_of(const Vortex& vortex, const Point& point, double t_s) {
     const double north_m = point.y_m - vortex.y_m - vortex.motion.north_mps * t_s;
     const double distance_m = std::hypot(east_m, north_m);
     // Compute f(r) / r, which has no singularity at the center.
-    const double per_m = distance_m <= vortex.radius_m
-                             ? 1 / vortex.radius_m
-                             : std::pow(vortex.radius_m / distance_m, vortex.decay) / distance_m;
+    double per_m = 1 / vortex.radius_m;
+    if (distance_m > vortex.radius_m) {
+        const double near = vortex.radius_m / distance_m;
+        per_m = (vortex.decay == 1 ? near : std::pow(near, vortex.decay)) / distance_m;
+    }
     return {per_m * (vortex.radial_mps * east_m - vortex.tangential_mps * north_m),
             per_m * (vortex.radial_mps * north_m + vortex.tangential_mps * east_m)};
 }

@@ -18,9 +18,8 @@ const synth::Wind uniform{{{0, {18, 22}}}};
 const synth::Wind sheared{{{0, {0, 8}}, {8000, {45, 0}}}};
 // A Rankine vortex of 50 m/s at 10 km from its center, 45 km east of the radar, in a wind of 10
 // m/s.
-const synth::Wind vortex{
-    {{0, {10, 0}}},
-    {{.x_m = 45'000, .radius_m = 10'000, .tangential_mps = 50}}};
+const synth::Wind vortex{{{0, {10, 0}}},
+                         {{.x_m = 45'000, .radius_m = 10'000, .tangential_mps = 50}}};
 
 class SyntheticWind : public ::testing::TestWithParam<double> {};
 
@@ -37,6 +36,19 @@ TEST_P(SyntheticWind, IsUnfolded) {
         EXPECT_LE(found.wrong_share(), 0.001) << name;
         EXPECT_LE(found.worst_sweep, 0.005) << name;
     }
+}
+
+// A tenth of the gates holds random velocities. At most one in 10,000 gates of the wind may follow
+// them.
+TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckle) {
+    FoldedSpec spec;
+    spec.nyquist_mps = GetParam();
+    spec.speckle = 0.1;
+    const FoldedVolume folded = fold(spec, vortex);
+    const Score found = score(folded, dealias(folded.volume, Dealiasing::anchored));
+    EXPECT_GT(found.gates, 600'000);
+    EXPECT_LT(found.gates, 620'000) << "the score leaves speckle out";
+    EXPECT_LE(found.wrong_share(), 0.0001);
 }
 INSTANTIATE_TEST_SUITE_P(Nyquist, SyntheticWind, ::testing::Values(8.0, 12.0, 16.0, 24.0, 33.0));
 

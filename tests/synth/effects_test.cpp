@@ -95,6 +95,20 @@ TEST(VelocityFolding, IsAMultipleOfTheIntervalOffAndInside) {
     }
 }
 
+TEST(VelocityFolding, TheFoldNumberRestoresTheVelocity) {
+    EXPECT_EQ(fold_number(3, 3, 10), 0);
+    EXPECT_EQ(fold_number(18, -2, 10), 1);
+    EXPECT_EQ(fold_number(-41, -1, 10), -2);
+    EXPECT_EQ(fold_number(9.9, -9.5, 10), 1) << "noise of 0.6 m/s folded the velocity";
+    for (const double nyquist : {2.0, 8.32, 63.0}) {
+        for (double velocity = -150; velocity < 150; velocity += 0.37) {
+            const double wrapped = wrapped_mps(velocity, nyquist);
+            EXPECT_NEAR(wrapped + 2 * nyquist * fold_number(velocity, wrapped, nyquist), velocity,
+                        1e-12);
+        }
+    }
+}
+
 TEST(RangeFolding, AGateIsFoldedUnlessItTowersOverTheOtherTrips) {
     std::vector<double> power(20, 0);
     power[2] = 10;  // the only echo of gates 2, 9 and 16

@@ -212,6 +212,8 @@ range_folding = "on"
 azimuth_jitter_deg = 0.1
 elevation_jitter_deg = 0.2
 missing_fraction = 0.01
+missing_gate_fraction = 0.02
+speckle_fraction = 0.03
 missing_cuts = [2, 17]
 [instrument.clutter]
 peak_dbz = 40
@@ -248,6 +250,8 @@ to_azimuth_deg = 30
     EXPECT_EQ(instrument.azimuth_jitter_deg, 0.1);
     EXPECT_EQ(instrument.elevation_jitter_deg, 0.2);
     EXPECT_EQ(instrument.missing_fraction, 0.01);
+    EXPECT_EQ(instrument.missing_gate_fraction, 0.02);
+    EXPECT_EQ(instrument.speckle_fraction, 0.03);
     EXPECT_EQ(instrument.missing_cuts, (std::vector<int>{2, 17}));
     ASSERT_TRUE(instrument.clutter);
     EXPECT_EQ(instrument.clutter->range_m, 20000);
@@ -256,6 +260,93 @@ to_azimuth_deg = 30
     EXPECT_FALSE(instrument.missing_radials[0].cut);
     EXPECT_EQ(instrument.missing_radials[1].cut, 3);
     EXPECT_EQ(instrument.missing_radials[1].to_deg, 30);
+}
+
+TEST(Scene, EveryKeyOfAWindArrives) {
+    const auto scene = parse_scene(std::string(least) + R"([[wind.level]]
+velocity_mps = [5, 20]
+[[wind.level]]
+height_km = 3
+velocity_mps = [30, -10]
+[[wind.vortex]]
+position_km = [45, 10]
+velocity_mps = [15, 5]
+radius_km = 6
+tangential_mps = -35
+radial_mps = 4
+decay = 0.5
+base_km = 1
+top_km = 9
+[[wind.vortex]]
+position_km = [1, 2]
+radius_km = 3
+radial_mps = 12
+)",
+                                   "scene.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->weather.wind);
+    const Wind& wind = *scene->weather.wind;
+    ASSERT_EQ(wind.levels.size(), 2U);
+    EXPECT_EQ(wind.levels[0].height_m, 0);
+    EXPECT_EQ(wind.levels[0].wind.north_mps, 20);
+    EXPECT_EQ(wind.levels[1].height_m, 3000);
+    EXPECT_EQ(wind.levels[1].wind.east_mps, 30);
+    ASSERT_EQ(wind.vortices.size(), 2U);
+    const Vortex& vortex = wind.vortices[0];
+    EXPECT_EQ(vortex.x_m, 45000);
+    EXPECT_EQ(vortex.y_m, 10000);
+    EXPECT_EQ(vortex.motion.east_mps, 15);
+    EXPECT_EQ(vortex.motion.north_mps, 5);
+    EXPECT_EQ(vortex.radius_m, 6000);
+    EXPECT_EQ(vortex.tangential_mps, -35);
+    EXPECT_EQ(vortex.radial_mps, 4);
+    EXPECT_EQ(vortex.decay, 0.5);
+    EXPECT_EQ(vortex.base_m, 1000);
+    EXPECT_EQ(vortex.top_m, 9000);
+    EXPECT_EQ(wind.vortices[1].tangential_mps, 0);
+    EXPECT_EQ(wind.vortices[1].radial_mps, 12);
+    EXPECT_EQ(wind.vortices[1].decay, 1);
+    EXPECT_EQ(wind.vortices[1].base_m, -INFINITY);
+    EXPECT_EQ(wind.vortices[1].top_m, INFINITY);
+    EXPECT_FALSE(parse_scene(least, "scene.toml")->weather.wind);
+}
+
+TEST(Scene, AWindThatCannotBeIsRefused) {
+    const std::string wind =
+        "[[wind.level]]\nheight_km = 1\nvelocity_mps = [5, 20]\n"
+        "[[wind.level]]\nheight_km = 2\nvelocity_mps = [5, 30]\n"
+        "[[wind.vortex]]\nposition_km = [1, 2]\nradius_km = 3\ntangential_mps = 9\n"
+        "base_km = 4\ntop_km = 5\n";
+    ASSERT_EQ(message_of(least + wind), "");
+    for (const Mistake& mistake :
+         {Mistake{"height_km = 2", "height_km = 1",
+                  "[wind.level] height_km: must be above the level before"},
+          {"[5, 30]", "[5, 300]", "[wind.level] velocity_mps: 300 is out of range"},
+          {"radius_km = 3", "radius_km = 0", "[wind.vortex] radius_km: 0 is out of range"},
+          {"tangential_mps = 9", "decay = 1", "tangential_mps: is missing, and so is radial_mps"},
+          {"base_km = 4", "base_km = 6", "[wind.vortex] top_km: must be above base_km"},
+          {"[[wind.vortex]]", "[wind.vortex]", "must be sections"}}) {
+        std::string toml = least + wind;
+        toml.replace(toml.find(mistake.replace), std::string(mistake.replace).size(), mistake.by);
+        EXPECT_THAT(message_of(toml), HasSubstr(mistake.message)) << mistake.by;
+    }
+    EXPECT_THAT(message_of(std::string(least) + "[wind]\n"),
+                HasSubstr("[wind] level: is missing, and so is vortex"));
+}
+
+TEST(Scene, ACutHasAnyNyquistVelocity) {
+    const std::string start = std::string(least) +
+                              "[[cut]]\nelevation_deg = 0.5\nazimuth_rate_deg_s = 20\n"
+                              "waveform = \"doppler\"\nnyquist_mps = 8.456\n";
+    const auto scene = parse_scene(start, "scene.toml");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(nyquist_mps(scene->schedule.pattern.cuts[0]), 8.46F);
+    std::string without = start;
+    without.replace(without.find("doppler\""), 8, "surveillance\"");
+    EXPECT_THAT(message_of(without), HasSubstr("[cut] nyquist_mps: is for cuts with velocity"));
+    std::string high = start;
+    high.replace(high.find("8.456"), 5, "63.01");
+    EXPECT_THAT(message_of(high), HasSubstr("[cut] nyquist_mps: 63.01 is out of range"));
 }
 
 TEST(Scene, AnInstrumentDoesNothingUnlessItIsTold) {
