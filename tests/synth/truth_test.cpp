@@ -211,6 +211,23 @@ TEST(TruthBox, ItsWaveRunsAlongItsAzimuth) {
     EXPECT_NEAR(truth_dbz(weather, {2000 * east + 50, 2000 * north + 50, 100}, 10), 46, 1e-9);
 }
 
+TEST(Truth, TheAirMovesWithTheWindAndTheEchoWithItsFeature) {
+    Storm storm = round_storm();
+    storm.footprint.motion = {20, -7};
+    Weather weather{{storm}, {}};
+    const Point later{storm.footprint.x_m + 2000, storm.footprint.y_m - 700, 1000};
+    const Echo without = truth(weather, later, 100);
+    weather.wind = Wind{{{0, {3, 40}}, {2000, {5, 60}}}};
+    const Echo with = truth(weather, later, 100);
+    EXPECT_DOUBLE_EQ(with.dbz, without.dbz);
+    EXPECT_NEAR(without.motion.east_mps, 20, 1e-12);
+    EXPECT_NEAR(with.motion.east_mps, 4, 1e-12);
+    EXPECT_NEAR(linear_truth(weather, later, 100).motion.north_mps, 50, 1e-12);
+    EXPECT_EQ(truth(weather, {900000, 0, 1000}, 0).motion.north_mps, 0) << "no echo, no motion";
+    const Weather turned = seen_from(weather, {0, 0, 90});  // its north is east
+    EXPECT_NEAR(truth(turned, {-later.y_m, later.x_m, 1000}, 100).motion.north_mps, 4, 1e-9);
+}
+
 // Everything that has a direction turns with the plane: hooks, tilts, ripples, waves, motions.
 TEST(Truth, SeenFromAnotherPlaceIsTheSameWeather) {
     Storm storm = round_storm();
