@@ -72,13 +72,18 @@ void add(FinestLengths& lengths, const Box& box) {
     shrink(lengths, across_m, box.top_m - box.base_m);
 }
 
-// The profile of a vortex has a kink at its radius; half of it keeps the mean velocity exact
-// enough.
-void add(FinestLengths& lengths, const Vortex& vortex) {
-    constexpr double of_the_radius = 0.5;
-    lengths.across_m = std::min(lengths.across_m, of_the_radius * vortex.radius_m);
-    lengths.cut_off =
-        lengths.cut_off || std::isfinite(vortex.base_m) || std::isfinite(vortex.top_m);
+// Profiles of winds have kinks, at the radius of a vortex and at levels. Kinks need closer points
+// than Gaussians.
+void add(FinestLengths& lengths, const Wind& wind) {
+    constexpr double part = 0.1;
+    for (const Vortex& vortex : wind.vortices) {
+        lengths.across_m = std::min(lengths.across_m, part * vortex.radius_m);
+        if (std::isfinite(vortex.base_m) || std::isfinite(vortex.top_m)) lengths.cut_off = true;
+    }
+    for (std::size_t i = 1; i < wind.levels.size(); ++i) {
+        const double step_m = wind.levels[i].height_m - wind.levels[i - 1].height_m;
+        lengths.up_m = std::min(lengths.up_m, part * std::max(step_m, 1.0));
+    }
 }
 
 void normalize(std::vector<BeamNode>& nodes) {
@@ -117,10 +122,7 @@ FinestLengths finest_lengths(const Weather& weather) {
     for (const Box& box : weather.boxes) {
         add(lengths, box);
     }
-    if (!weather.wind) return lengths;
-    for (const Vortex& vortex : weather.wind->vortices) {
-        add(lengths, vortex);
-    }
+    if (weather.wind) add(lengths, *weather.wind);
     return lengths;
 }
 

@@ -22,9 +22,9 @@
 // Accuracy  For gates from 5 dBZ on and a beam of 0.95 degrees: 0.1 dB in 99 of 100 gates of storms
 //           and 0.3 dB in all of them; 2 dB where layers and boxes are cut off. Enforced by
 //           tests/synth/beam_test.cpp over the scenes of this project, against a quadrature three
-//           times as fine as the finest. The mean velocity of the gates around a vortex of 50 m/s
-//           with a radius of 0.3 to 3 km, 67 km away, is within 0.2 m/s of the same quadrature
-//           (tests/synth/velocity_truth_test.cpp).
+//           times as fine as the finest. The mean velocity of gates 67 km away is
+//           within 0.1 m/s of the same quadrature, for vortices of 50 m/s with radii of 0.3 to 3 km
+//           and for a jet of 22 m/s that is 1 km deep (tests/synth/velocity_truth_test.cpp).
 // Threads   Pure functions.
 #pragma once
 
@@ -42,8 +42,9 @@ struct BeamNode {
 };
 
 // The shortest lengths over which the weather changes. A length is the deviation of the Gaussian in
-// mm^6/m^3 that is as steep as the weather; a vortex counts as half its radius. Without weather
-// both lengths are infinite. `cut_off` is true if a feature begins abruptly at a height.
+// mm^6/m^3 that is as steep as the weather. In the wind, a length
+// is a tenth of the radius of a vortex, or of the step between two levels. Without weather both
+// lengths are infinite. `cut_off` is true if a feature begins abruptly at a height.
 struct FinestLengths {
     double across_m = 0;
     double up_m = 0;
