@@ -58,7 +58,7 @@ TEST(Chain, WhatTheSceneDoesNotAskForIsNoErrorWhenLeftOff) {
     EXPECT_EQ(allowed_rungs(chain.steps[1]).most, 1U);
     EXPECT_NEAR(left_off(chain, none).position_m, all - geodesic, 1e-12 * all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 1, 1));
-    // An effect that is on requires an effect that is off: an error.
+    // An effect that is on requires an effect that is off, which is an error.
     chain.steps[1].effects[1].setting = Setting::off;
     EXPECT_EQ(left_off(chain, none).position_m, all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 2, 1));

@@ -141,8 +141,8 @@ TEST(QuantileBound, HowManyClustersItTakes) {
     EXPECT_NEAR(static_cast<double>(needed(5, 20)), 4 * 902, 20);
 }
 
-// Columns, a share `bad` of which have errors in all of their cells. Bad columns have more cells,
-// and the distribution of their errors has a tail without a mean.
+// Draws columns of cells. A share `bad` of the columns is bad. A bad column has more cells, all
+// with the same large error, drawn from a distribution without a mean.
 struct Columns {
     double bad = 0.01;
     std::size_t small = 4, large = 20;

@@ -9,9 +9,10 @@
 namespace stormcellar::accuracy::testing {
 
 // Returns a chain of a beam (4/3 earth, traced), a frame (sphere, ellipsoid, geodesic) and
-// averaging (dB, linear Z), with values in decibels. The effects have these sizes and costs:
-// refraction 200 m and 1 s, ellipsoid 240 m and 0.1 s, geodesic 30 m and 2 s, linear Z 0.3 dB and
-// 0.5 s. The size of linear Z is known from a sample; the other sizes are proven.
+// averaging (dB, linear Z), with values in decibels. Without refraction, the error is 200 m;
+// without the ellipsoid, 240 m; without the geodesic, 30 m; without linear Z, 0.3 dB. These effects
+// cost 1 s, 0.1 s, 2 s and 0.5 s. The error of linear Z is known from a sample; the other errors
+// are proven bounds.
 [[nodiscard]] Chain small_chain();
 
 // Returns a chain of up to four steps of up to three effects, with small whole numbers, so that

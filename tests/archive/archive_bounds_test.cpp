@@ -339,12 +339,12 @@ TEST(ArchiveReader, WhatIsPackedTwiceIsNone) {
         ArchiveReader::open(packed(Kind::tar_compress, make_archive(Kind::tar_compress, two))));
 }
 
-// Packs `prefix` and then endless repetitions of `period`, in the format of compress, with codes of
-// up to `most_width` bits. The file is `start` and any number of copies of `repeated`; each copy
-// unpacks to many periods.
+// A file in the format of compress: `start`, and any number of copies of `repeated`.
 struct EndlessCompressed {
     std::string start, repeated;
 };
+// Packs `prefix` and then endless repetitions of `period`, with codes of up to `most_width` bits.
+// Each copy of `repeated` unpacks to many periods.
 EndlessCompressed compressed_without_end(const std::string& prefix, const std::string& period,
                                          unsigned most_width) {
     const unsigned full = 1U << most_width;

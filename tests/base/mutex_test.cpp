@@ -110,7 +110,7 @@ TEST(ConditionVariable, AWaitGivesUpTheMutexUntilItIsNotified) {
     std::thread other;
     {
         const MutexLock lock(count.mutex);
-        other = std::thread([&] { count.add(1); });  // waits for the mutex until the wait below
+        other = std::thread([&] { count.add(1); });  // waits until wait() unlocks the mutex
         while (count.number == 0)
             count.changed.wait(count.mutex);
         EXPECT_EQ(count.number, 1);

@@ -58,7 +58,8 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name give the region, which reveals a lost sign and swapped fields.
+// The first letters of an ICAO name give the region, so this test finds a lost sign and swapped
+// fields.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {
@@ -186,7 +187,7 @@ TEST(IsIcao, RefusesOtherLengths) {
     EXPECT_FALSE(is_icao("KTLXX"));
 }
 
-// Each byte of a name is replaced by every wrong value.
+// Replaces each byte of a name by every value.
 TEST(IsIcao, RefusesEveryOtherByte) {
     for (std::size_t place = 0; place < 4; ++place) {
         for (int value = 0; value < 256; ++value) {

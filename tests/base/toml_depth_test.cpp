@@ -55,7 +55,8 @@ TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     }
 }
 
-// 2026-11-25: a file with a key of too many parts crashed the process, even if a mistake followed.
+// 2026-11-25: a file with a key of too many parts crashed the process, even if the file had another
+// mistake after the key.
 TEST(TomlDepth, AKeyThatWouldEndTheProcessIsRefused) {
     const std::string deep = key_of(400'000);
     for (const std::string& text :

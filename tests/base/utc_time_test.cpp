@@ -9,7 +9,7 @@ const UtcTime noon = *parse_utc("2022-03-17T12:00:00Z", UtcTime{});
 
 TEST(UtcTime, NexradDayOneIsTheEpoch) {
     EXPECT_EQ(format_utc(time_from_nexrad(1, 0)), "1970-01-01T00:00:00Z");
-    // The header of KTLX19990503_235621, as an independent decoder gives it.
+    // An independent decoder reads this time from the header of KTLX19990503_235621.
     EXPECT_EQ(format_utc(time_from_nexrad(10715, 86181000)), "1999-05-03T23:56:21Z");
 }
 

@@ -142,8 +142,8 @@ TEST_F(Source, LinksAreNotFollowedAndCounted) {
     EXPECT_EQ(listing.first_link.parent_path(), directory_.path());
 }
 
-// 2026-11-29: a file with the name of a tar that is no tar was reported as having no station and
-// time in its name.
+// 2026-11-29: a file that had the name of a tar but was no tar was reported as having no station
+// and time in its name.
 TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     write(directory_ / "README");
     write(directory_ / "day.tar", "<html>404</html>");
@@ -230,7 +230,7 @@ TEST_F(Source, ABucketIsFetchedToTheScratchDirectory) {
     EXPECT_EQ(failed.error().code, ErrorCode::io);
     EXPECT_THAT(failed.error().message, HasSubstr("1 of 2 files could not be fetched"));
 
-    // No try brings a file that the bucket lists but refuses.
+    // A file that the bucket lists but refuses is left out, because no other try could succeed.
     bucket.fail_next("2017/01/01/KTLX/KTLX20170101_030027_V06",
                      {fetch::MockBucket::Fault::missing});
     const auto without = bring(what);

@@ -19,7 +19,7 @@ std::filesystem::path stormcellard() {
     return std::filesystem::path{BENCH_DIRECTORY}.parent_path() / "daemon/stormcellard";
 }
 
-// Returns true if the process runs; a zombie does not.
+// Returns true if the process runs; a zombie does not count as running.
 bool runs(pid_t process) {
     std::ifstream file(fmt::format("/proc/{}/stat", process));
     std::string line;

@@ -183,7 +183,7 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     block.origin = 17;
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 
-    // The same block comes after a block that is not empty and that has been returned already.
+    // The randomised block comes after the same block without randomising, which is returned first.
     BlockPlan first = block;
     first.randomised = false;
     BlockPlan blocks[] = {first, block};

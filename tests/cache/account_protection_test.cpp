@@ -172,7 +172,7 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     EXPECT_TRUE(account_.fits("KTLX", 900, budgets_));
     EXPECT_THAT(*room(name("XBBB", 20), 11), ElementsAre(name("XAAA", 0), name("XAAB", 1)));
     EXPECT_THAT(account_.others_down_to(80, 100), ElementsAre(name("XAAA", 0), name("XAAB", 1)));
-    // Files that are being written count in the tenth.
+    // Files that are being written count toward the tenth of the budget that others may hold.
     account_.reserve("XCCC", 20);
     EXPECT_EQ(account_.used_by_others(), 120U);
     account_.release("XCCC", 20);

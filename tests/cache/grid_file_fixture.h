@@ -37,7 +37,7 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         const grid::BrickGrid made = bricks(code_bytes);
         return write_grid_file(file_system, path_, describe(testing::small_grid()), made.view());
     }
-    // Returns the code of the error of opening the file, or `empty` if it can be opened.
+    // Opens the file, and returns the code of the error, or `empty` if there is none.
     [[nodiscard]] ErrorCode opened() const {
         const auto file = GridFile::open(path_);
         return file ? ErrorCode::empty : file.error().code;

@@ -12,7 +12,7 @@ namespace stormcellar::testing {
 // enough to damage each byte: 40 x 24 x 18 cells in 3 x 2 x 2 bricks.
 [[nodiscard]] grid::Grid small_grid();
 
-// The grids of sized_grid() have several sizes on disk, and are made once.
+// Largest number of stored bricks in a grid of sized_grid().
 inline constexpr int most_bricks = 8;
 
 inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});

@@ -179,8 +179,8 @@ TEST_F(OthersGridsTest, AFullFileSystemTakesTheirsFirst) {
     const std::uint64_t of_known = testing::allocated_bytes(cache_);
     for (int site = 0; site < 5; ++site)
         ASSERT_TRUE(commit(store, invented(site), 100 + site));
-    // The cache holds one grid too many. Without the rule for others, known grids would also be
-    // evicted, down to the low mark at which eviction stops.
+    // The cache exceeds its limit by one block of the disk. Without the rule for others, known
+    // grids would also be evicted, down to the low mark at which eviction stops.
     beside_ = capacity_ * 8 / 10 - testing::allocated_bytes(cache_) + 4096;
     EXPECT_EQ(store.roll().evicted, 5U);
     EXPECT_EQ(testing::allocated_bytes(cache_), of_known)

@@ -51,8 +51,8 @@ Budgets budgets() {
     return made;
 }
 
-// Many readers read while a writer commits and evicts. A reader can still read the file that it has
-// open.
+// Many readers read while a writer commits and evicts. A reader that holds a file open can still
+// read it after the file was evicted.
 TEST(CacheProcesses, ReadersSeeWholeGridsWhileAWriterEvicts) {
     const testing::TemporaryDirectory directory;
     const fs::path cache = directory / "cache";

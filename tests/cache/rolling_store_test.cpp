@@ -335,7 +335,7 @@ TEST_F(RollingStoreTest, CountsWhatOthersRemovedAndAdded) {
     store.roll();
     EXPECT_EQ(store.usage().grids, 2U);
     EXPECT_EQ(store.usage().bytes, testing::allocated_bytes(cache_));
-    // No grid must be evicted for these two.
+    // There is room for these two grids without an eviction.
     for (const int minute : {4, 5})
         ASSERT_TRUE(commit(store, "A", minute));
     EXPECT_EQ(store.usage().evicted, 0U);

@@ -233,7 +233,8 @@ TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);
 }
 
-// A repair writes the new database first, so that after each further step one of the two exists.
+// A repair writes the new database first, so that after each later step the old or the new database
+// exists.
 TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     fill(0, 200);
     damage_page_with(facts_of(100).path);

@@ -1,5 +1,5 @@
-// Tests that a file's row is searched in few databases, but in all that may have it. A row in the
-// database of another station than the name of its file says is a stray.
+// Tests that a file's row is searched in few databases, but in all that may have it. A stray is a
+// row whose database belongs to a different station than the one in the file's name.
 #include "catalog/path_homes.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     EXPECT_EQ(*catalog_.mark_gone("/d/KOUN_c"), 1);
 }
 
-// Asking all databases took most of the time of each new file.
+// Asking all databases took most of the time that a new file needed.
 TEST_F(CatalogTest, NoOtherDatabaseIsAskedForANewFileHoweverManyHaveStrays) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));

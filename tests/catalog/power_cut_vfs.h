@@ -22,7 +22,7 @@
 
 namespace stormcellar::testing {
 
-enum class Kept { nothing, everything, some };  // the data that were not synced and are kept
+enum class Kept { nothing, everything, some };  // how much of the unsynced data a power cut keeps
 
 class PowerCutVfs {
   public:

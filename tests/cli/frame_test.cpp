@@ -25,7 +25,8 @@ class Frame : public ::testing::Test {
         }
     }
 
-    // Commits velocities for one of the times: 20 m/s below, -20 m/s above, not seen in the east.
+    // Commits velocities for the time of `grid`: 20 m/s in its lower half and -20 m/s in its upper
+    // half. The columns in the east are not seen.
     void commit_velocity(cache::StoreWriter& store, grid::Grid grid) {
         grid.moment = level2::Moment::vel;
         const auto levels = static_cast<std::size_t>(grid.spec.nz());

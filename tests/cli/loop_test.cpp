@@ -276,7 +276,7 @@ TEST_F(Loop, TheCameraFliesThroughItsKeys) {
     const auto result = run({"KBGM", "--scene", scene, "-o", out("f.webp")});
     ASSERT_EQ(result.status, 0) << result.err;
     const auto frames = render::decode_webp(out("f.webp")).frames;
-    ASSERT_EQ(frames.size(), 5U);  // two frames a second for 2 s, and the end
+    ASSERT_EQ(frames.size(), 5U);  // two frames a second for 2 s, and a last frame at 2 s
     const auto still = [&](const std::string& place) {
         EXPECT_EQ(run({"KBGM", "--scene", scene, "--camera-km=" + place, "--look-at-km", "0,0,5",
                        "-o", out("s.webp")})
@@ -458,7 +458,7 @@ TEST_F(Loop, RealVolumesBecomeALoop) {
     ASSERT_EQ(loop.frames.size(), 2U) << loop.error;
     // Echo moves between the volumes; without labels nothing else can differ.
     EXPECT_NE(loop.frames[0].image.rgba, loop.frames[1].image.rgba);
-    int saturated = 0;  // grounds and lines are grey
+    int saturated = 0;  // number of colored pixels; ground and lines are gray
     const render::Image& image = loop.frames[0].image;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
         const auto [low, high] = std::minmax({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});

@@ -42,7 +42,7 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     EXPECT_EQ(one["cells"], other["cells"]);
     EXPECT_EQ(one["time"], other["time"]);
     EXPECT_GT(one["cells"]["value"], 1000);
-    // Each moment has the same values as in a grid of this moment alone on the same columns.
+    // With both sites, fewer cells are not seen than with one site on the same columns.
     const Words same_columns = {"--center", "42.5,-75", "--extent-km", "640,640"};
     const auto both = grid({real(bgm), real(enx)}, same_columns);
     const auto alone = grid({real(bgm)}, same_columns);

@@ -153,7 +153,7 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
         EXPECT_EQ(ran.status, exit_bad_usage) << more;
         return ran.err;
     };
-    // The picture's metadata have its number of slices.
+    // The metadata in the PNG name the number of slices.
     const auto has_slices = [&](int count) {
         return testing::file_text(at("a.png")).find(fmt::format(", {} slices", count)) !=
                std::string::npos;

@@ -165,7 +165,6 @@ TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {
     }
 }
 
-// The answer may hold anything, but none of its control characters reaches the terminal.
 TEST(StatusTable, SaysWhenTheDropDirectoryIsLost) {
     const json status = {
         {"drop", "/d"}, {"directories", 0U}, {"drop_lost", "/d: Permission denied"}};

@@ -239,7 +239,7 @@ TEST_F(IntakeTest, AFileThatIsNeverClosedIsReadWhenItRests) {
     now_ += seconds{1};
     intake_.poll_growing();  // sees the change
     now_ += seconds{1};
-    intake_.poll_growing();  // sees that it has settled
+    intake_.poll_growing();  // sees that the file has settled
     EXPECT_EQ(next(), "a");
 }
 

@@ -1,4 +1,5 @@
-// tests/daemon/status_client.h -- a client of the status server, which may also violate HTTP.
+// tests/daemon/status_client.h -- a client of the status server. The client can also send requests
+// that violate HTTP.
 #pragma once
 
 #include <filesystem>

@@ -107,7 +107,7 @@ TEST_F(RealWatcher, WhatComesDuringAScanIsSeenBeforeItsEnd) {
     constexpr int count = 1000;
     for (int i = 0; i < count; ++i)
         write_file(drop() / std::to_string(i), "1");
-    ASSERT_TRUE(watcher_->scan());  // from now on it is watched
+    ASSERT_TRUE(watcher_->scan());  // from now on the directory is watched
     notes_.said.clear();
     int steps = 0;
     watcher_->on_step([&] {

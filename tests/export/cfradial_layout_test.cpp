@@ -1,4 +1,4 @@
-// Tests which fields and axes result from which gates.
+// Tests which fields and axes a file gets for the gates of a volume.
 #include "export/cfradial_layout.h"
 
 #include <algorithm>
@@ -148,7 +148,8 @@ TEST(CfradialLayout, OnOneAxisALegacyGateOfOneKilometerStandsFourTimes) {
     EXPECT_EQ(vel.repeats, 1U);
 }
 
-// 2026-11-28: Py-ART and xradar found the long sweep of a TDWR, with REF at 300 m, empty.
+// 2026-11-28: Py-ART and xradar read the long sweep of a TDWR as empty, because its REF has gates
+// of 300 m.
 TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
     SweepMoment far = small_moment(Moment::ref, {{2, 3, 4}});
     far.first_gate_m = 0;

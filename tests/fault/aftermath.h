@@ -42,7 +42,7 @@ struct Aftermath {
     std::size_t files = 0;        // delivered
     std::size_t rows = 0;         // of the catalog, in all databases
     std::size_t volumes = 0;      // delivered whole
-    std::size_t gridded = 0;      // volumes of these with a whole grid in the cache
+    std::size_t gridded = 0;      // those of `volumes` that have a whole grid in the cache
     std::size_t grids = 0;        // in the cache, all verified
     std::size_t with_reason = 0;  // rows that are partial or rejected and give a reason
     std::size_t set_aside = 0;    // damaged databases

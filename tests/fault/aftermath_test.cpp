@@ -1,5 +1,4 @@
-// Tests the check itself. The check must report nothing about a sound state, and must name each
-// fault.
+// Tests look_at_aftermath(). It must report nothing about a sound state, and must name each fault.
 #include <fstream>
 
 #include <SQLiteCpp/SQLiteCpp.h>

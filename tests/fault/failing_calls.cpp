@@ -50,7 +50,7 @@ bool is_below(std::string_view path) {
     return false;
 }
 
-// Returns the errno with which this call must fail; 0: it must not fail.
+// Returns the errno with which this call must fail, or 0 if it must not fail.
 int fate(Kind kind, const char* call, const char* path) {
     Steering* const steer = steering();
     if (steer == nullptr || (steer->kinds & kind) == 0 || !is_below(path)) return 0;

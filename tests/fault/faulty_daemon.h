@@ -22,8 +22,8 @@ inline constexpr bool is_sanitized = true;
 inline constexpr bool is_sanitized = false;
 #endif
 
-// Returns the number in the environment variable `name`, for example STORMCELLAR_KILLS=1000;
-// `usual` if it is not set.
+// Returns the number in an environment variable such as STORMCELLAR_KILLS, or `usual` if it is not
+// set.
 [[nodiscard]] int number_of(const char* variable, int usual);
 
 class FaultyDaemon {

@@ -1,4 +1,5 @@
-// Tests files that grow without end, and take memory and places while the service follows them.
+// Tests files that grow without end. They take memory, and places among the limited number of files
+// that the service follows.
 #include <chrono>
 #include <cstdio>
 #include <functional>

@@ -53,7 +53,7 @@ TEST_F(InventedStations, TakeNoDescriptorsAndNoDatabases) {
     stop();
 }
 
-// There are more stations than the descriptors allow if each station's database stayed open.
+// If the database of each known station stayed open, the descriptors would run out.
 TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     start();
     for (const Station& station : all_stations()) {

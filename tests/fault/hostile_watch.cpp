@@ -157,7 +157,8 @@ bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
     });
 }
 
-// Close the socket after READY: nobody reads later messages, and the daemon must not block.
+// Closes the socket after READY=1, because nobody reads later messages, and a full socket would
+// block the daemon.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config) {
     const fs::path path = daemon.root() / "notify";
     fs::remove(path);

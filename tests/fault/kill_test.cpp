@@ -31,9 +31,9 @@ bool is_in_a_write(const std::filesystem::path& cache) {
     return false;
 }
 
-// The time of the kill ranges from before main() to the middle of the work. The longer the daemon
-// runs, the more files arrive, but so few files that it catches up although it is killed again and
-// again.
+// The time of the kill ranges from before main() to the middle of the work. After each kill, at
+// most four more shipments (files or volumes) arrive, so that the daemon catches up although it is
+// killed again and again.
 TEST(Kill, AtRandomMomentsUnderLoad) {
     const int kills = number_of("STORMCELLAR_KILLS", 15);
     const auto seed = static_cast<std::uint32_t>(number_of("STORMCELLAR_SEED", 1));

@@ -208,7 +208,7 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     fs::rename(away, daemon_.drop());
     deliver_some(4);
     expect_to_catch_up();
-    deliver_some(4);  // their events must arrive again
+    deliver_some(4);  // events must arrive again
     expect_to_catch_up();
     // Put another directory in place of the drop directory, and write files into that directory.
     fs::rename(daemon_.drop(), away);

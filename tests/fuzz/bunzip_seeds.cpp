@@ -8,7 +8,8 @@ namespace {
 
 using bunzip::Bytes;
 
-// Returns the byte `kind` and then the bytes: a stream, contents, contents and damage, or a plan.
+// Returns the byte `kind` and then the bytes. The kind says whether the bytes are a stream,
+// contents, contents and damage, or a plan.
 Bytes behind(char kind, const Bytes& bytes) {
     Bytes seed{static_cast<std::byte>(kind)};
     seed.insert(seed.end(), bytes.begin(), bytes.end());

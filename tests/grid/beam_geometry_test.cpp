@@ -62,7 +62,7 @@ Quad gaussian_radius(double latitude_deg) {
     return sqrtq(meridian * prime_vertical);
 }
 
-// The textbook's formula. Its terms cancel, which floats of 113 bits survive.
+// Result of the textbook's formula, whose terms cancel. Floats of 113 bits have digits to spare.
 struct Exact {
     Quad arc_m, height_m;
 };

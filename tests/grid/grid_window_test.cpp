@@ -115,8 +115,7 @@ TEST(GridWindow, WholeBricksEndAtBricksOrAtTheDomain) {
     EXPECT_FALSE(is_whole_bricks(domain, {16, 32, 47, 16}));
 }
 
-// Finds the outermost columns within reach. Solves the geodesic where the great circle is too close
-// to the reach to decide.
+// The outermost columns within reach of a site.
 struct Extremes {
     int least_x = 1 << 20, greatest_x = -1, least_y = 1 << 20, greatest_y = -1;
 };

@@ -118,7 +118,7 @@ TEST_P(RealVolume, AgreesWithTheOracleFarFromTheSite) {
     compare(volume, site, spec, {level2::Moment::ref, {}, 7});
 }
 
-// The cell of a grid with one cell at the center of a gate must hold that gate.
+// A grid of one cell at the center of a gate must hold that gate.
 TEST_P(RealVolume, ACellAtAGatesCentreHoldsTheGate) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume(std::string("volumes/") + GetParam());

@@ -101,7 +101,8 @@ double arc_m(PreparedScene& prepared, int ix, int iy) {
     return static_cast<double>((*geometry)->row(iy)[static_cast<std::size_t>(ix)].arc_m);
 }
 
-// Returns the 99th percentile over all cells with a value in both grids.
+// Returns the 99th percentile of the differences between two grids, over all cells with a value in
+// both.
 double difference(PreparedScene& prepared, const Grid& a, const Grid& b) {
     std::vector<double> errors;
     CellCircles circles = circles_of(prepared);
@@ -191,7 +192,7 @@ TEST_P(Honesty, TheGridIsWithinTheBudgetOfTheOracle) {
         }
     }
     EXPECT_GT(compared, 20 / testing::slow_down);
-    // The cells of a column are off together, so allow three times the share, plus two columns.
+    // The cells of a column are off together, so allow three times the share, plus six cells.
     EXPECT_LE(exceeding, 0.03 * compared + 6) << "of " << compared;
 }
 

@@ -177,8 +177,8 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
 }
 
 // Two radars see one smooth field, but the second radar is 2 dB too strong. Where the second
-// radar's window ends, its weight is at most 0.034, which is half the weight of the first radar,
-// 140 km nearer.
+// radar's window ends, the second radar's weight is at most 0.034, which is half the weight of the
+// first radar, because the first radar is 140 km nearer.
 TEST(Mosaic, NoSeamWhereAWindowEnds) {
     GridSpec domain = default_spec(41, -76);
     domain.nx = 256;

@@ -31,7 +31,7 @@ struct Prepared {
     [[nodiscard]] Sample at(double azimuth_deg, double arc_m) const {
         return sweep.sample(static_cast<float>(azimuth_deg), place_at(arc_m));
     }
-    // Samples the place below the point of the sweep's beam at this range.
+    // Samples the place on the ground below the beam at this range.
     [[nodiscard]] Sample at_range(double azimuth_deg, double range_m) const {
         return at(azimuth_deg, beam.forward({range_m, chosen[0].elevation_deg}).arc_m);
     }

@@ -165,7 +165,7 @@ TEST(Plan, AnEvenSkyNeedsNoInterpolation) {
     const level2::Volume volume = make_volume(plans_at({0.5, 1.5, 2.5}));
     const GridPlan planned = planned_for(volume, spec_of(60, 2000), "20 km, 1 dB");
     EXPECT_TRUE(planned.plan.meets_budget);
-    // Linear may happen to cost no more than nearest.
+    // If linear interpolation is measured as no slower than nearest, the plan may choose it.
     EXPECT_LE(planned.choice.method.interpolation, Interpolation::linear);
     EXPECT_EQ(planned.choice.method.cell, CellExtent::point);
     EXPECT_EQ(planned.choice.method.averaging, Averaging::in_db);

@@ -113,7 +113,7 @@ std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& swe
 
 void SlowColumn::add_sweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
                            const Place& column) {
-    // The beam has no height over this arc.
+    // If this angle is 89.9 degrees or more, the beam has no height over this arc.
     const Real angle = chosen.elevation_deg * degree + column.arc_m / radius_m_;
     if (!(angle < 89.9L * degree)) return;
     Beam beam;

@@ -90,7 +90,7 @@ class SlowSweep {
             if (turn > 0) after = std::min(after, turn);
             const double best = turn_deg(place.azimuth_deg,
                                          static_cast<double>(sweep_.radials[nearest].azimuth_deg));
-            // If radials have one azimuth, the later counts.
+            // If radials have equal azimuths, the later counts.
             if (std::abs(turn) <= std::abs(best)) nearest = i;
         }
         const double off = std::min(after, -before);

@@ -149,8 +149,8 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     }
 }
 
-// In the duct, the lower edge of some beams comes down to the ground, and the upper edge of others,
-// and edges cross the centers of their beams. Each sweep has one strength of echo, so that the
+// In the duct, some beams lose their lower edge to the ground, others lose their upper edge, and
+// some edges cross the center of their beam. Each sweep has one strength of echo, so that the
 // values show the weights of the sweeps.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans = plans_at({-0.3, 0.2, 0.5, 1.5, 2.4}, patchy_plan());

@@ -49,10 +49,10 @@ inline const SitePosition plains{"XXXX", 35, -97, 390};
 [[nodiscard]] Grid grid_of(const GridCase& given, const Method& method, double least = -200,
                            double greatest = 1000);
 
-// The allowed differences from the oracle. Some hundred columns of a grid are compared. Doubtful
-// cells, whose state or gate depends on less than the stated accuracies, are left out. With points,
-// all cells must agree. With areas, a gate on the very edge may count or not, so 99 cells in 100
-// must agree, with values within `area_tolerance`.
+// The allowed differences from the oracle. Some 40 columns of a grid are compared, or some 10 for a
+// method with areas. Doubtful cells, whose state or gate depends on less than the stated
+// accuracies, are left out. With points, all cells must agree. With areas, a gate on the very edge
+// may count or not, so 99 cells in 100 must agree, with values within `area_tolerance`.
 struct Agreement {
     double area_tolerance = 1;
     double most_doubtful = 0.2;  // largest share of doubtful columns and cells

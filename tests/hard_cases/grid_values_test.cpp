@@ -205,7 +205,9 @@ TEST(ReflectivityOver100dB, MeansAreThoseOfLongDoubles) {
             }
             const Grid grid = grid_of(pair.given, method, -31, 71);
             ASSERT_EQ(grid.status[0], CellStatus::value);
-            // 0.15 m of 1.7 km, times 100 dB; rises differ by less than a hundredth.
+            // Heights are accurate to 0.15 m of the 1.7 km between the beams, which is 0.01 dB of
+            // 100 dB. share_of_high() takes the rises of both beams (meters per degree) as equal,
+            // but they differ by up to a hundredth.
             const bool by_beam = method.interpolation == Interpolation::beam_weighted;
             EXPECT_NEAR(grid.values[0], static_cast<double>(expected), by_beam ? 0.5 : 0.05)
                 << label(method) << " " << share;

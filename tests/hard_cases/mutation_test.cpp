@@ -1,7 +1,7 @@
 // Damages real volumes in many ways (container_mutants.h, message_mutants.h) and compares them with
 // the undamaged volumes. An ordinary run makes some mutants of the start and end of each volume.
-// STORMCELLAR_MUTANTS=N makes N mutants of the container of the whole volume, and 10 N of its
-// messages (8 MiB of them).
+// STORMCELLAR_MUTANTS=N makes N mutants of the container of the whole volume, and 10 N mutants of 8
+// MiB of its messages.
 #include <charconv>
 #include <csignal>
 #include <cstdio>

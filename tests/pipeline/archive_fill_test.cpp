@@ -161,7 +161,7 @@ TEST_F(ArchiveFillTest, FramesAreTheSameByAnyNumberOfWorkersAndHoweverOftenTheyA
     mosaic.threads = 1;
     cache::StoreWriter one = store("one"), three = store("three");
     const FillReport alone = fill(one, mosaic);
-    ASSERT_GT(alone.frames_made, 8U);  // more than two turns of a worker
+    ASSERT_GT(alone.frames_made, 8U);  // a worker makes four frames in one turn
     mosaic.threads = 3;
     ASSERT_EQ(fill(three, mosaic).frames, alone.frames);
     // First, the cache has a frame that was made by other rules.

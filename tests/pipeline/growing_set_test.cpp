@@ -124,7 +124,8 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllMemoryWhatNobodyKnowsGivesWayFirst) {
     EXPECT_LE(set_.held_bytes(), limits().held_bytes);
 }
 
-// Sweeps that never end leave three quarters of the memory to volumes that continue.
+// Members without a closed sweep may hold only a part of the memory, so volumes that continue keep
+// the rest.
 TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
     GrowingLimits limits = GrowingSetTest::limits();
     limits.beginnings_held_bytes = 3 * mib;

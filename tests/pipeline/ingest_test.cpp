@@ -85,7 +85,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
-// Message 2 of these files has these troubles.
+// In the first file, message 2 reports two troubles; in the second file, it reports none.
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();
     const auto troubles_of = [&](const std::string& name, const std::string& station) {

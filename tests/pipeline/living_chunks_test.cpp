@@ -256,7 +256,7 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
         << "a refused file should not be read again";
 }
 
-// 2026-11-22: the shelved sweeps of chunks had no limit on disk.
+// 2026-11-22: the sweeps of chunks that wait on disk (on the shelf) had no limit.
 TEST_F(LivingChunks, WhatHasNotGrownForLongestMakesRoom) {
     const auto grow = [&](ChunkVolumes& volumes, const std::string& site) {
         const auto directory = directory_ / "others" / site;

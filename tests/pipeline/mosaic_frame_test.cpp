@@ -30,7 +30,7 @@ grid::GridSpec northeast() {
     return coarse_spec(41.8, -75, 200);
 }
 
-// KBGM's sequence of August 2005, and a domain that no other site reaches.
+// Makes frames of a domain in the northeast from real volumes.
 class RealFrames : public ::testing::Test {
   protected:
     void SetUp() override { STORMCELLAR_NEED_DATA(); }

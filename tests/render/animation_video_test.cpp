@@ -74,7 +74,7 @@ TEST_P(AnimationVideo, TitleIsInTheFile) {
 INSTANTIATE_TEST_SUITE_P(Containers, AnimationVideo, ::testing::Values("mp4", "webm"),
                          [](const auto& parameter) { return parameter.param; });
 
-// A browser can begin before it has the whole file.
+// The index comes first, so that a browser can begin before it has the whole file.
 TEST(AnimationMp4, IndexStandsBeforeThePictures) {
     const testing::TemporaryDirectory directory;
     const std::string path = (directory / "a.mp4").string();

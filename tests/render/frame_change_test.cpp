@@ -23,8 +23,8 @@ TEST(ChangedRectangle, HoldsEveryPixelThatDiffersAndNoMore) {
             for (int y1 = y0; y1 < 5; ++y1) {
                 for (int x1 = x0; x1 < 7; ++x1) {
                     Image after = before;
-                    after.set(x0, y1, {1, 2, 4, 255});  // one corner changes only in its last color
-                    after.set(x1, y0, {0, 2, 3, 255});  // the other only in its first
+                    after.set(x0, y1, {1, 2, 4, 255});  // one corner changes only in blue
+                    after.set(x1, y0, {0, 2, 3, 255});  // the other only in red
                     EXPECT_EQ(change(before, after), (Rectangle{x0, y0, x1 - x0 + 1, y1 - y0 + 1}));
                 }
             }

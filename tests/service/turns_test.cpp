@@ -1,4 +1,4 @@
-// Tests the main loop of a service: turns, reloads, the watchdog and the end.
+// Tests the main loop of a service: its passes (turns), reloads, the watchdog and the end.
 #include "service/turns.h"
 
 #include <csignal>

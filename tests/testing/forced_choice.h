@@ -8,8 +8,8 @@
 
 namespace stormcellar::testing {
 
-// Returns the plan's choice, changed: if `on`, with the effect and all effects that it requires on;
-// otherwise with the effect and all effects that require it off.
+// Returns the plan's choice with one change. If `on`, the effect and all effects that it requires
+// are on. Otherwise the effect and all effects that require it are off.
 inline accuracy::Choice forced(const accuracy::Plan& plan, const accuracy::Chain& chain,
                                const std::string& effect, bool on) {
     accuracy::Choice choice = plan.choice;

@@ -152,8 +152,8 @@ TEST_F(EventsOverHttp, AClientThatReadsNothingHoldsNoEvents) {
         hub_->publish(event);
         (void)quick->read_until("id: abc-" + std::to_string(i) + "\n");
     }
-    // 12 MB of events were published, and the hub keeps 16. The slow client reads the events that
-    // the kernel holds, and then that others were lost.
+    // The hub has published 12 MB of events, and keeps the last 16 events. The slow client reads
+    // the events that the kernel holds, and then a reset, because other events are lost.
     const std::string heard = slow->read_until("event: reset");
     EXPECT_NE(heard.find("event: reset"), std::string::npos);
     EXPECT_GE(hub_->resets(), 1u);

@@ -1,4 +1,4 @@
-// Tests how much of a server one client, or all together, may hold.
+// Tests how much of a server one client, or all clients together, may hold.
 #include <chrono>
 #include <memory>
 #include <string>

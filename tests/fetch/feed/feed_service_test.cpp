@@ -52,7 +52,7 @@ TEST_F(FeedingFrom, EverythingArrivesWithItsNames) {
 TEST_F(FeedingFrom, ListingsOfManyPagesAreRead) {
     bucket_.set_page(50);
     bucket_.put_volume("KTLX", 494, recent, 180);
-    bucket_.put_volume("KTLX", 494, recent - std::chrono::hours{90}, 10);  // of the previous round
+    bucket_.put_volume("KTLX", 494, recent - std::chrono::hours{90}, 10);  // an older volume
     feed_.start();
     ASSERT_TRUE(feed_.wait_for_files(180));
     EXPECT_EQ(bucket_.count("GET "), 180U);

@@ -16,8 +16,8 @@ using std::chrono::seconds;
 
 const UtcTime start = *parse_utc("2026-11-28T12:00:00Z", {});
 
-// Plays the part of StationFeed: in each turn it asks for one listing, and then takes all new
-// chunks that the listing names.
+// Asks the bucket as StationFeed does. Each turn requests one listing, and then all new chunks that
+// the listing names.
 class Following : public ::testing::Test {
   protected:
     void begin(const std::vector<VolumeId>& written = {}) {
@@ -128,7 +128,7 @@ TEST_F(Following, AnEndThatNeverComesHoldsUpNothing) {
 }
 
 TEST_F(Following, AfterNumber999ComesNumber1) {
-    add_volume(keys_, 1, start - minutes{999 * 5}, 5);  // of the previous round of numbers
+    add_volume(keys_, 1, start - minutes{999 * 5}, 5);  // an older volume with number 1
     begin({{start, 999}});
     add_volume(keys_, 999, start, 5);
     EXPECT_EQ(all().size(), 5U) << "the chunks of the last round must not be taken";
