@@ -112,7 +112,7 @@ TEST(Plot, ThirtyFiveSeriesLookDifferent) {
         plot.points.push_back({"", std::to_string(i), 1.0 + i, 1.0 + i, true});
     }
     const std::string svg = drawn(plot);
-    // The color and the shape of each marker in the legend, in turn.
+    // The markers in the legend take the colors and the shapes in turn.
     for (const char* color :
          {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"}) {
         EXPECT_EQ(count(svg, std::string("fill=\"") + color), 10U) << color;

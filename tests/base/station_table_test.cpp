@@ -30,7 +30,7 @@ TEST(StationTable, EveryFieldIsFilled) {
     }
 }
 
-// The WSR-88D are 159 in operation, the former KJAN, KLIX, KRMX and LPLA, and KCRI and KOUN in
+// The 165 WSR-88D are 159 in operation, the former KJAN, KLIX, KRMX and LPLA, and KCRI and KOUN in
 // Norman.
 TEST(StationTable, HoldsTheWholeNetwork) {
     EXPECT_EQ(count(RadarKind::nexrad), 165U);

@@ -276,8 +276,8 @@ TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     expect_unreadable(run(plan, 1), "has 2 of the 3 grids that task 0 made");
 }
 
-// An additional grid of the same day from another plan does no harm. In place of our own grid it is
-// an error.
+// An additional grid of the same day from another plan does no harm. In place of the plan's own
+// grid, it is an error.
 TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));
@@ -388,7 +388,7 @@ TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
 }
 
-// The counts of a month and hour cover exactly its frames, in any order of counting.
+// The counts of an hour of a month cover exactly the frames of this hour, in any order of counting.
 TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
     Recipe counted = recipe("one");
     counted.statistics = grid::Tallied::columns_and_cells;

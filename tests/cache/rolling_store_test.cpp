@@ -318,7 +318,7 @@ TEST_F(RollingStoreTest, AllThatIsHeldPinnedIsAnErrorForTheNewest) {
     ASSERT_FALSE(third);
     EXPECT_EQ(third.error().code, ErrorCode::over_budget);
     EXPECT_THAT(grids(store), ElementsAre("A+0", "A+1"));
-    // With one pin less, the newest grid finds room, although no other grid may be evicted.
+    // After one pin is removed, the newest grid finds room, although the other grid stays pinned.
     ASSERT_TRUE(*unpin_grid(real_file_system(), path("A", 1)));
     store.roll();
     ASSERT_TRUE(commit(store, "A", 2));

@@ -186,7 +186,7 @@ TEST_F(Frame, ASectionOutsideTheGridIsRefused) {
     EXPECT_THAT(messages_, ::testing::HasSubstr(
                                "the section from 35.000\u00B0N 98.000\u00B0W to "
                                "35.500\u00B0N 97.000\u00B0W lies completely outside the grid"));
-    // 40 columns and rows of 1 km about 42.2 N 75.98 W: 20 km are 0.180 and 0.243 degrees.
+    // The grid reaches 20 km (0.180 and 0.243 degrees) to each side of 42.2 N 75.98 W.
     EXPECT_THAT(messages_, ::testing::HasSubstr("from 42.020\u00B0N 76.22"));
     EXPECT_THAT(messages_, ::testing::HasSubstr("to 42.380\u00B0N 75.73"));
     EXPECT_FALSE(fs::exists(out("b.png")));

@@ -69,8 +69,8 @@ TEST(GridRequest, KilometresBecomeDegreesAsTheCentreHasThem) {
         spec_for("--projection lat-lon --spacing-deg 0.01 --extent-km 300,200", 60, 10);
     ASSERT_TRUE(mixed);
     EXPECT_EQ(mixed->spacing_deg, 0.01);
-    EXPECT_EQ(mixed->ny, 180);  // 1.7951
-    EXPECT_EQ(mixed->nx, 538);  // 5.3763
+    EXPECT_EQ(mixed->ny, 180);  // 1.7951 / 0.01 = 179.5
+    EXPECT_EQ(mixed->nx, 538);  // 5.3763 / 0.01 = 537.6
 }
 
 TEST(GridRequest, ParallelsAreGivenOrThoseOfTheCentre) {

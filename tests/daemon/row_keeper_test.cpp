@@ -71,7 +71,7 @@ class RowKeeperTest : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     JournalSocket journal_{directory_ / "journal"};
     RowSink sink_;
-    std::atomic<milliseconds> ahead_{};  // of the clock that measures the work
+    std::atomic<milliseconds> ahead_{};  // added to the clock that measures the work
     std::optional<RowKeeper> keeper_{std::in_place, sink_,
                                      [this] { return steady_now() + ahead_.load(); }};
     SteadyTime now_{seconds{100'000}};

@@ -89,7 +89,7 @@ TEST(WorkerPool, WantOfMemoryIsTheSystems) {
 TEST(WorkerPool, RunsAsManyJobsAtOnceAsItHasWorkers) {
     std::latch all_run(3);
     FakeSink sink([&](const auto&, bool) {
-        all_run.arrive_and_wait();  // would hang if they ran one after another
+        all_run.arrive_and_wait();  // would hang if the jobs ran one after another
         return outcome_of(IngestResult::gridded);
     });
     WorkerPool pool(work_of(sink), "ingest", 3, [] {});

@@ -35,7 +35,8 @@ class AftermathTest : public ::testing::Test {
         delete daemon_;
         delete delivered_;
     }
-    // A copy to damage. Paths in the catalog still begin with the drop directory.
+    // Copies the state, so that a test may damage it. Paths in the copied catalog still begin with
+    // the drop directory.
     void SetUp() override {
         places_ = daemon_->places();
         fs::copy(places_.state / "catalog", copy_ / "state/catalog", fs::copy_options::recursive);

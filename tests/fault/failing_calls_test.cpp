@@ -25,7 +25,7 @@ struct Failure {
     std::uint32_t kinds;
     int error_number;
     bool lasts;          // calls fail until 200 ms after the first failure; false: one call fails
-    bool in_drop;        // also calls on the incoming files
+    bool in_drop;        // calls on the incoming files may fail, too
     bool needs_restart;  // only the next start removes temporary files that are left
 };
 

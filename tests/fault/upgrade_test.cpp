@@ -29,7 +29,7 @@ class Upgrade : public HostileCases {
         return time;
     }
     // Makes the state of the old version, which gridded the files of any station. With "any", the
-    // present daemon still grids the files of 64 unknown stations.
+    // present daemon still grids the files of up to 64 unknown stations.
     void make_state_of_before() {
         start({.ingest = "stations = \"any\"\n"});
         old_volume_ = put_good("KTLX");

@@ -50,7 +50,7 @@ Quad radians(double degrees) {
     return Quad{degrees} * acosq(-1) / 180;
 }
 
-// Computes M and N separately, as in textbooks.
+// Computes the two radii of curvature separately, as in textbooks.
 Quad gaussian_radius(double latitude_deg) {
     const Quad a = 6378137;
     const Quad f = 1 / (Quad{298257223563} / 1000000000);

@@ -104,7 +104,7 @@ TEST(GridTally, CountsEachCellWhereAsked) {
     EXPECT_EQ(cells.with_value(at(2)), 1U) << "no echo is no value";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 0)), 1U) << "a folded cell is seen";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 1)), 0U);
-    // Columns are counted in any case.
+    // The same tally also counts columns.
     EXPECT_EQ(tally.columns().seen(column), 3U);
 
     const auto bytes = tally.to_bytes();

@@ -191,7 +191,7 @@ TEST(SingleSweep, AndOneRadial) {
     GridCase given = about({one}, 51, 500);
     expect_sound_by_every_method(given, {}, [](const Method& method, const Grid& grid) {
         if (method.cell == CellExtent::area) return;
-        // Half a degree on either side of north.
+        // Only cells within half a degree of north may be seen.
         for (int iy = 0; iy < grid.spec.ny; ++iy) {
             for (int ix = 0; ix < grid.spec.nx; ++ix) {
                 const double off_deg =

@@ -50,7 +50,7 @@ Domain domain_of(std::string name, std::initializer_list<const char*> stations) 
     return domain;
 }
 
-// Returns a site in the plains, two sites at coasts, a TDWR, whose names are long, and the crowded
+// Returns a site in the plains, two sites at coasts, a TDWR (their names are long), and the crowded
 // northeast with seven radars and with all of its radars.
 std::vector<Domain> domains() {
     return {domain_of("KTLX", {"KTLX"}),

@@ -64,7 +64,7 @@ bool lightness_rises(const ColorTable& table, std::size_t first, std::size_t end
     return true;
 }
 
-// Gray stays gray, and these two colors look alike to people who cannot tell red from green.
+// Gray stays gray, and `red` and `green` look alike to people who cannot tell red from green.
 TEST(Sights, KeepGreysAndMixWhatTheyShould) {
     for (const Sight& sight : sights) {
         EXPECT_LT(ciede2000(seen_by(sight, {128, 128, 128, 255}), lab_of({128, 128, 128, 255})),

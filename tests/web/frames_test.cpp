@@ -141,7 +141,7 @@ TEST_F(Frames, AreKeptAndHaveTags) {
     EXPECT_NE(header_of(get(std::string(small_map) + "&theme=light"), "ETag"), etag);
 }
 
-// Draws a sweep of the storm's file with the library: all cuts are decoded, and the file is read.
+// Reads the storm's file, decodes all of its cuts, and draws one sweep with the library.
 std::vector<std::byte> drawn_sweep(const PicturedStorm& storm, const render::SceneOptions& options,
                                    level2::Moment moment, double elevation_deg) {
     level2::DecodeOptions all;

@@ -110,7 +110,7 @@ TEST(Index, AnswersItsFilesAndNothingElse) {
         EXPECT_EQ(asked(door, target).status, 404u) << target;
 }
 
-// The script reads these keys; tests/web/api_test.cpp checks that the API has them.
+// Finds the operations that the script requests, and checks that the API has them.
 TEST(Index, TheScriptAsksOperationsOfTheApi) {
     IndexDoor door({"/api/v1"}, "b");
     const std::string script = body_of(asked(door, "/index.mjs"));

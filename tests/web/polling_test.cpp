@@ -43,7 +43,7 @@ TEST_F(Polling, AListIsBoundedAndKeepsTheNewest) {
     EXPECT_EQ(body_of(asked(door, "/nexrd2/KTLX/dir.list")), "488081 KTLX20170101_030027_V06\n");
 }
 
-// The list and the volume have the same size, because a program that polls fetches the added bytes.
+// The list must give the size of the volume, because a program that polls fetches the added bytes.
 TEST_F(Polling, AVolumeThatGrowsIsListedAtItsSizeOfNow) {
     ServedVolumes served(false);
     served.take_chunks(3);
