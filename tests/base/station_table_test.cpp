@@ -58,8 +58,7 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name give the region, so this test finds a lost sign and swapped
-// fields.
+// The first letters of an ICAO name give the region, so lost signs and swapped fields are found.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {

@@ -55,8 +55,7 @@ TEST(TomlDepth, StringsEndWhereTheParserEndsThem) {
     }
 }
 
-// 2026-11-25: a file with a key of too many parts crashed the process, even if the file had another
-// mistake after the key.
+// 2026-11-25: a key of too many parts crashed the process, even if the file had a mistake after it.
 TEST(TomlDepth, AKeyThatWouldEndTheProcessIsRefused) {
     const std::string deep = key_of(400'000);
     for (const std::string& text :

@@ -233,8 +233,7 @@ TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);
 }
 
-// A repair writes the new database first, so that after each later step the old or the new database
-// exists.
+// A repair first writes the new database, so the old or the new one exists after each later step.
 TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     fill(0, 200);
     damage_page_with(facts_of(100).path);

@@ -1,5 +1,4 @@
-// tests/daemon/status_client.h -- a client of the status server. The client can also send requests
-// that violate HTTP.
+// tests/daemon/status_client.h -- a client that can also violate HTTP, to test the status server.
 #pragma once
 
 #include <filesystem>

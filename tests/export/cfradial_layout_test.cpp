@@ -148,8 +148,7 @@ TEST(CfradialLayout, OnOneAxisALegacyGateOfOneKilometerStandsFourTimes) {
     EXPECT_EQ(vel.repeats, 1U);
 }
 
-// 2026-11-28: Py-ART and xradar read the long sweep of a TDWR as empty, because its REF has gates
-// of 300 m.
+// 2026-11-28: Py-ART and xradar found no values in the long sweep of a TDWR (300 m gates).
 TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
     SweepMoment far = small_moment(Moment::ref, {{2, 3, 4}});
     far.first_gate_m = 0;

@@ -35,8 +35,7 @@ class AftermathTest : public ::testing::Test {
         delete daemon_;
         delete delivered_;
     }
-    // Copies the state, so that a test may damage it. Paths in the copied catalog still begin with
-    // the drop directory.
+    // Tests damage these copies. Paths in the copied catalog begin with the drop directory.
     void SetUp() override {
         places_ = daemon_->places();
         fs::copy(places_.state / "catalog", copy_ / "state/catalog", fs::copy_options::recursive);

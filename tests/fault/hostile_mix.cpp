@@ -290,7 +290,7 @@ void HostileMix::strike_chunk() {
         const bool is_invented = below(2) == 0;
         const std::string station =
             is_invented ? invented_station(below(invented_count)) : known_names_[volume.station];
-        // The real feed uses only smaller numbers for its directories.
+        // The real feed numbers its directories from 1 to 999.
         volume.directory = options_.drop / station / std::to_string(100'000 + number_);
         const std::string time = format_compact(some_time(below(5000)));
         volume.name = time.substr(0, 8) + "-" + time.substr(9);

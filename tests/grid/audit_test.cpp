@@ -132,8 +132,7 @@ TEST(Audit, StatesThatDisagreeAreCountedApart) {
     EXPECT_EQ(found->states[value][static_cast<std::size_t>(CellStatus::no_echo)], row.sampled);
 }
 
-// Uses velocities next to the fold: with a Nyquist velocity of 25 m/s, 24 and -24 m/s differ by 2
-// m/s.
+// With a Nyquist velocity of 25 m/s, velocities of 24 and -24 m/s differ by 2 m/s.
 TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
     SweepPlan plan;
     plan.moment = level2::Moment::vel;

@@ -101,8 +101,7 @@ double arc_m(PreparedScene& prepared, int ix, int iy) {
     return static_cast<double>((*geometry)->row(iy)[static_cast<std::size_t>(ix)].arc_m);
 }
 
-// Returns the 99th percentile of the differences between two grids, over all cells with a value in
-// both.
+// Returns the 99th percentile of the differences of the cells with a value in both grids.
 double difference(PreparedScene& prepared, const Grid& a, const Grid& b) {
     std::vector<double> errors;
     CellCircles circles = circles_of(prepared);

@@ -124,8 +124,7 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllMemoryWhatNobodyKnowsGivesWayFirst) {
     EXPECT_LE(set_.held_bytes(), limits().held_bytes);
 }
 
-// Members without a closed sweep may hold only a part of the memory, so volumes that continue keep
-// the rest.
+// Members without a closed sweep may together hold only a part of the memory.
 TEST_F(GrowingSetTest, WhatHasClosedNoSweepHasABoundOfItsOwn) {
     GrowingLimits limits = GrowingSetTest::limits();
     limits.beginnings_held_bytes = 3 * mib;
