@@ -365,8 +365,8 @@ TEST_F(BatchTasks, MembersOfATarGiveTheGridsOfTheFiles) {
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
 
-// Two machines may run plans of one bucket: fetched files have the times of the bucket, so the
-// grids are equal.
+// Two machines that run plans of one bucket make equal grids, because fetched files have the times
+// of the bucket.
 TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     fetch::MockBucket bucket;
     for (const std::string& name : pipeline::sequence) {

@@ -98,7 +98,7 @@ TEST_P(OddStreams, LongestWords) {
     // Words that do not fit into 20 bits are cut, so the result may be anything.
     static_cast<void>(check(mended_stream('9', plan(bytes, lengths, symbols))));
 
-    // a complete code up to 20 bits
+    // This complete code has words of up to 20 bits.
     std::vector<std::uint8_t> proper(21);
     for (std::size_t i = 0; i < 20; ++i)
         proper[i] = static_cast<std::uint8_t>(20 - i);

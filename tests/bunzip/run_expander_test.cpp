@@ -11,7 +11,7 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
-// Expands as the format describes it; the last byte of `packed` follows the block.
+// Expands a block as the format describes it. The last byte of `packed` is behind the block.
 Octets slowly(const Octets& packed) {
     Octets out;
     std::size_t alike = 0;

@@ -47,8 +47,7 @@ class GridFileTest : public ::testing::TestWithParam<int> {
         EXPECT_TRUE(write_grid_file(real_file_system(), path_, describe(grid), made.view()));
         return opened();
     }
-    // Writes the file with a changed header and a matching checksum, and returns the result of
-    // opened().
+    // Changes the header of these bytes, corrects its checksum, and returns opened() of the file.
     template <class Change>
     [[nodiscard]] ErrorCode opened_with_header(std::vector<std::byte> bytes, Change change) const {
         format::FileHeader header;

@@ -19,7 +19,7 @@ class KnownStations : public ::testing::Test {
         options.stations = rule_ = std::make_shared<StationRule>(std::move(rule));
         return *CatalogWriter::open(catalog_, options);
     }
-    // Leaves a database, as an older configuration did that accepted every name.
+    // Leaves a database of an older configuration, which accepted every name.
     void put(const std::string& station, std::chrono::minutes age = {}) {
         {
             auto catalog = *CatalogWriter::open(catalog_);

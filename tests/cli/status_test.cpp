@@ -224,7 +224,8 @@ TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }
 
-// Answers the first client with this text, and then ends.
+// Returns the error of ask_socket() if a server answers with this text; bad_argument if there is
+// none.
 ErrorCode code_of_answer(const std::string& answer) {
     const testing::TemporaryDirectory directory;
     const fs::path path = directory / "s";

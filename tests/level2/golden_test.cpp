@@ -92,8 +92,8 @@ void expect_same(const Json& expected, const Json& found, const std::string& key
     }
 }
 
-// Returns the fields that describe the whole file here, but in the reference only the part before
-// the damage.
+// Returns the fields for which the decoder describes the whole of a damaged file, but the reference
+// only the part before the damage.
 const std::set<std::string>& prefix_only_fields() {
     static const std::set<std::string> fields = {"message_counts",
                                                  "vcp",

@@ -22,7 +22,7 @@ struct Spec {
 
 class VolumeBuilderTest : public ::testing::Test {
   protected:
-    // Each radial has the codes 10, 11, 12 ...
+    // Adds a radial with the codes 10, 11, 12 ...
     bool add(const Spec& spec) {
         RadialMessage message;
         message.elevation_number = spec.elevation_number;

@@ -18,7 +18,7 @@
 
 namespace stormcellar::pipeline {
 
-// Grids of 115 x 115 columns, 4 km apart.
+// Returns options for grids of 115 x 115 columns, 4 km apart.
 inline IngestOptions small_grid() {
     IngestOptions options;
     options.spacing_m = 4000;

@@ -102,7 +102,7 @@ TEST(MapLayer, LinesFillThePictureAndEndWithIt) {
     }
 }
 
-// At a slant the ground ends around the grid.
+// In a slanted view, the map ends at a limited distance outside the grid.
 TEST(MapLayer, LinesAtASlantEndAroundTheGrid) {
     const auto map = BaseMap::built_in().value();
     const grid::GridSpec spec = spec_of(Projection::azimuthal_equidistant, 40.9, -76, 230, 2000);

@@ -289,7 +289,7 @@ TEST_F(Region, TheApiSaysWhyASiteIsNotInThePicture) {
                     {"KCCX", "it has no volume within 15 minutes"}}));
 }
 
-// 2026-11-28: a radar whose place only its file tells was in no region and in no list of places.
+// 2026-11-28: a radar whose place is known only from its file was in no region and in no list.
 TEST_F(Region, ARadarThatItsFilePlacesIsThere) {
     commit(grid_at("ROP4", {35.24, -97.46}, 40, testing::noon));
     grids_->refresh();

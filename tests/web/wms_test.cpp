@@ -223,7 +223,7 @@ TEST_F(Wms, LegendShowsTheColors) {
               body_of(get(query + "KTLX:composite.REF")));
 }
 
-// JPEG has no transparency, so pictures have a ground even with TRANSPARENT=TRUE.
+// JPEG has no transparency, so the background is opaque even with TRANSPARENT=TRUE.
 TEST_F(Wms, JpegIsGivenWhereItIsAskedFor) {
     const std::string query =
         "VERSION=1.3.0&REQUEST=GetMap&LAYERS=KTLX:composite.REF&CRS=CRS:84&BBOX=-99,34,-96,37"
