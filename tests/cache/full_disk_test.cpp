@@ -73,8 +73,8 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     EXPECT_EQ(testing::all_grids(store).size(), 1U) << "the newest stays";
 }
 
-// After no_space, the daemon ingests no files of any station. So a grid of an unknown station must
-// not give that error while known stations can still get room by eviction.
+// After the error no_space, the daemon ingests no files of any station. So a grid of an unknown
+// station must not give that error while known stations can still get room by eviction.
 TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     budgets_.total.bytes = 1'000'000'000;
     RollingStore store = open(budgets_);

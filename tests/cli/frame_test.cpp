@@ -25,8 +25,7 @@ class Frame : public ::testing::Test {
         }
     }
 
-    // Commits velocities for the time of `grid`: 20 m/s in its lower half and -20 m/s in its upper
-    // half. The columns in the east are not seen.
+    // Commits velocities of 20 m/s in the lower half and -20 m/s above; the east is not seen.
     void commit_velocity(cache::StoreWriter& store, grid::Grid grid) {
         grid.moment = level2::Moment::vel;
         const auto levels = static_cast<std::size_t>(grid.spec.nz());

@@ -1,5 +1,4 @@
-// Tests files that grow without end. They take memory, and places among the limited number of files
-// that the service follows.
+// Tests files that grow without end, and so take memory and places among the followed files.
 #include <chrono>
 #include <cstdio>
 #include <functional>

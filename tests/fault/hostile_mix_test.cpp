@@ -172,7 +172,7 @@ class HostileMixTest : public ::testing::Test {
         EXPECT_LE(peaks.cache_bytes, cache_bytes);
         EXPECT_LE(peaks.state_bytes, most_state_bytes());
     }
-    // Rows of a million files take some 300 MB; the short form has 20,000.
+    // The rows of a long run, of a million files, take some 300 MB; a short run has 20,000 files.
     [[nodiscard]] std::uint64_t most_state_bytes() const {
         return (seconds_ > 60 ? 512 : 200) * mib;
     }
@@ -219,7 +219,7 @@ class HostileMixTest : public ::testing::Test {
 };
 
 TEST_F(HostileMixTest, RealStationsGoOnAsBefore) {
-    // The period is short enough for at least two volumes of each station in the short form.
+    // The period is short enough for at least two volumes of each station in a short run.
     RealFeed feed(daemon_.drop(), daemon_.cache(), seconds_ > 60 ? 25 : seconds_ * 0.4);
     HostileMix mix({.drop = daemon_.drop(),
                     .outside = daemon_.root() / "outside",

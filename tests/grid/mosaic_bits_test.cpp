@@ -162,7 +162,7 @@ TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     ASSERT_TRUE(made);
     expect_same_bits(*expected, *made);
 
-    // all bricks outside the changed window
+    // Damage all bricks outside the changed window.
     const GridWindow changed{32, 32, 16, 32};
     for (std::size_t s = 0; s < all.size(); ++s) {
         const GridWindow window = *window_of(domain, *all[s].view.spec);

@@ -265,7 +265,7 @@ TEST_F(LivingMemory, BeyondTheBoundOfAllWhatNoStationClaimsGoesFirst) {
     EXPECT_TRUE(files.find(a) && files.find(c));
 }
 
-// There was no place to follow the file, and only its last radial shows that the volume has ended.
+// Nothing follows this file, so only its last radial shows that the volume has ended.
 TEST_F(LivingMemory, AFileThatIsNotFollowedIsReadAtItsEnd) {
     Ingestor& ingestor = with(std::make_shared<StationRule>());
     const wire::Bytes messages = wire::radial_messages(2, 360);

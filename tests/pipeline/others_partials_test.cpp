@@ -128,7 +128,7 @@ TEST_F(OthersPartials, AMachineThatIsLateIsLeftOutNamedAndComesBack) {
     const auto late = node("late", std::chrono::minutes{5}), all = node("all");
     for (const auto& partial : {first, other_first, other_second, other_third})
         take(*late, partial.station == "KBGM" ? "a" : "b", partial);
-    // KBGM's newest middle is 02:46, so KBGM is in the frame of 02:50, but not in the frame of
+    // The middle of KBGM's newest volume is 02:46, so KBGM is in the frame of 02:50, but not of
     // 02:55.
     EXPECT_THAT(frame_of(*late, 50).stations, ElementsAre("KBGM", "KOKX"));
     EXPECT_THAT(frame_of(*late, 50).left_out, IsEmpty());

@@ -105,7 +105,7 @@ TEST_F(Thredds, StationsHaveNoNamespace) {
     }
 }
 
-// 2026-11-28: a radar whose place only its file tells was in no list of places and in no box.
+// 2026-11-28: a radar whose place is known only from its file was in no list and in no box.
 TEST_F(Thredds, AStationThatItsFilesPlaceHasAPlace) {
     const auto file = *testing::data_directory() /
                       "cases/files/6-station-not-in-the-table/ROP420240601_220000_V06";

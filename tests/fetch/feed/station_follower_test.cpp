@@ -16,8 +16,7 @@ using std::chrono::seconds;
 
 const UtcTime start = *parse_utc("2026-11-28T12:00:00Z", {});
 
-// Asks the bucket as StationFeed does. Each turn requests one listing, and then all new chunks that
-// the listing names.
+// Asks as StationFeed does. Each turn requests one listing, and then all new chunks in it.
 class Following : public ::testing::Test {
   protected:
     void begin(const std::vector<VolumeId>& written = {}) {

@@ -28,7 +28,7 @@ std::string text_of(const fs::path& path) {
     return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
 }
 
-// A machine that has two partials of the domain us, and answers as a data server does.
+// A machine that has two partials of the domain "us", and answers as a data server does.
 class OtherMachine {
   public:
     OtherMachine() : server_([this](const Asked& asked) { return answer(asked); }) {
