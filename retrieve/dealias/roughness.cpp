@@ -1,43 +1,43 @@
 #include "retrieve/dealias/roughness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "retrieve/dealias/unfolded_sheet.h"
 
 namespace stormcellar::retrieve {
 namespace {
 
 constexpr int reach = 2;        // gates on each side
 constexpr int least_pairs = 6;  // fewer pairs count as this many
-constexpr int steps = 1000;     // of a turn; whole numbers keep running sums exact
-constexpr int roughest = steps / 8;
 
-// Sums over the pairs that begin at a gate, or at several gates.
 struct PairSum {
-    int difference = 0, pairs = 0;
-    void add(const PairSum& other, int sign) {
-        difference += sign * other.difference;
-        pairs += sign * other.pairs;
+    float difference = 0;
+    int pairs = 0;
+    void add(float a, float b) {
+        const float apart = std::abs(a - b);
+        if (std::isnan(apart)) return;
+        difference += std::min(apart, 1.0F);
+        ++pairs;
+    }
+    void add(const PairSum& other) {
+        difference += other.difference;
+        pairs += other.pairs;
     }
 };
 
 class RoughGates {
   public:
-    RoughGates(const VelocitySheet& sheet, const std::vector<std::int8_t>& folds)
-        : sheet_(sheet),
-          folds_(folds),
-          by_gate_(static_cast<std::size_t>(sheet.radials) * static_cast<std::size_t>(sheet.gates)),
-          column_(static_cast<std::size_t>(sheet.gates)) {}
+    RoughGates(const VelocitySheet& sheet, const UnfoldedSheet& unfolded)
+        : sheet_(sheet), unfolded_(unfolded) {}
 
     std::vector<std::uint8_t> find() {
-        for (int radial = 0; radial < sheet_.radials; ++radial)
-            sum_pairs(radial);
-        std::vector<std::uint8_t> rough(folds_.size(), 0);
-        for (int away = -reach; away < reach; ++away)
-            add_to_columns(away, 1);
+        std::vector<std::uint8_t> rough(sheet_.turns.size(), 0);
         for (int radial = 0; radial < sheet_.radials; ++radial) {
-            add_to_columns(radial + reach, 1);
-            mark(radial, rough);
-            add_to_columns(radial - reach, -1);
+            gather_rough_runs(radial);
+            for (int run = 0; run < unfolded_.runs(); ++run)
+                if (may_be_rough(run)) mark(radial, run, rough);
         }
         return rough;
     }
@@ -49,49 +49,66 @@ class RoughGates {
         if (!sheet_.is_circle || sheet_.radials <= 2 * reach) return -1;
         return (number + sheet_.radials) % sheet_.radials;
     }
-    void add_pair(std::size_t a, std::size_t b) {
-        const float apart = std::abs(sheet_.turns[a] + static_cast<float>(folds_[a]) -
-                                     sheet_.turns[b] - static_cast<float>(folds_[b]));
-        if (std::isnan(apart)) return;
-        by_gate_[a].add({static_cast<int>(std::min(apart, 1.0F) * steps), 1}, 1);
-    }
-    void sum_pairs(int radial) {
-        const int next = radial_at(radial + 1);
-        for (int gate = 0; gate < sheet_.gates; ++gate) {
-            const std::size_t here = sheet_.at(radial, gate);
-            if (std::isnan(sheet_.turns[here])) continue;
-            if (gate + 1 < sheet_.gates) add_pair(here, here + 1);
-            if (next >= 0) add_pair(here, sheet_.at(next, gate));
+    // Notes which runs have a rough difference in the radials about this one.
+    void gather_rough_runs(int radial) {
+        near_.assign(static_cast<std::size_t>(unfolded_.runs()), 0);
+        for (int away = -reach; away <= reach; ++away) {
+            const int number = radial_at(radial + away);
+            if (number < 0) continue;
+            const std::uint8_t* marks = unfolded_.marks(number);
+            for (std::size_t run = 0; run < near_.size(); ++run)
+                near_[run] |= marks[run];
         }
     }
-    void add_to_columns(int number, int sign) {
-        const int radial = radial_at(number);
-        if (radial < 0) return;
-        for (int gate = 0; gate < sheet_.gates; ++gate)
-            column_[static_cast<std::size_t>(gate)].add(by_gate_[sheet_.at(radial, gate)], sign);
+    // Returns false if no difference about the gates of a run is rough, because then their mean
+    // is not.
+    [[nodiscard]] bool may_be_rough(int run) const {
+        const auto at = static_cast<std::size_t>(run);
+        return near_[at] != 0 || (at > 0 && near_[at - 1] != 0) ||
+               (at + 1 < near_.size() && near_[at + 1] != 0);
     }
-    void mark(int radial, std::vector<std::uint8_t>& rough) const {
+    // Sums the pairs that begin in the column of gates about a gate.
+    [[nodiscard]] PairSum column(int radial, int gate) const {
         PairSum sum;
-        for (int gate = -reach; gate < sheet_.gates; ++gate) {
-            if (gate + reach < sheet_.gates)
-                sum.add(column_[static_cast<std::size_t>(gate + reach)], 1);
-            if (gate > reach) sum.add(column_[static_cast<std::size_t>(gate - reach - 1)], -1);
-            if (gate < 0 || sum.difference <= roughest * std::max(sum.pairs, least_pairs)) continue;
-            const std::size_t here = sheet_.at(radial, gate);
-            if (!std::isnan(sheet_.turns[here])) rough[here] = 1;
+        if (gate < 0 || gate >= sheet_.gates) return sum;
+        for (int away = -reach; away <= reach; ++away) {
+            const int near = radial_at(radial + away);
+            if (near < 0) continue;
+            const float* row = unfolded_.row(near);
+            sum.add(row[gate], row[gate + 1]);
+            sum.add(row[gate], unfolded_.row_after(near)[gate]);
+        }
+        return sum;
+    }
+    void mark(int radial, int run, std::vector<std::uint8_t>& rough) const {
+        constexpr int columns = UnfoldedSheet::run_gates + 2 * reach;
+        const int first = run * UnfoldedSheet::run_gates;
+        std::array<PairSum, columns> sums;
+        for (int i = 0; i < columns; ++i)
+            sums[static_cast<std::size_t>(i)] = column(radial, first - reach + i);
+        const int end = std::min(first + UnfoldedSheet::run_gates, sheet_.gates);
+        for (int gate = first; gate < end; ++gate) {
+            if (std::isnan(unfolded_.row(radial)[gate])) continue;
+            PairSum about;
+            for (int i = 0; i <= 2 * reach; ++i)
+                about.add(sums[static_cast<std::size_t>(gate - first + i)]);
+            const auto pairs = static_cast<float>(std::max(about.pairs, least_pairs));
+            if (about.difference > UnfoldedSheet::rough_turns * pairs)
+                rough[sheet_.at(radial, gate)] = 1;
         }
     }
 
     const VelocitySheet& sheet_;
-    const std::vector<std::int8_t>& folds_;
-    std::vector<PairSum> by_gate_, column_;
+    const UnfoldedSheet& unfolded_;
+    std::vector<std::uint8_t> near_;  // of each run of gates
 };
 
 }  // namespace
 
 std::vector<std::uint8_t> rough_gates(const VelocitySheet& sheet,
                                       const std::vector<std::int8_t>& folds) {
-    return RoughGates(sheet, folds).find();
+    const UnfoldedSheet unfolded(sheet, folds);
+    return RoughGates(sheet, unfolded).find();
 }
 
 }  // namespace stormcellar::retrieve

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "retrieve/dealias/fold_graph.h"
+#include "retrieve/dealias/unfolded_sheet.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -14,9 +15,10 @@ namespace {
 // is some radials and gates wide.
 constexpr int reach = 4;
 
-// A block of radials and gates in which a larger share of the pairs jumps holds noise, not shear.
+// A block of radials and of a run of gates in which a larger share of the pairs jumps holds noise,
+// not shear.
 constexpr double most_jumps = 0.15;
-constexpr int block_radials = 8, block_gates = 16;
+constexpr int block_radials = 8;
 
 // A gate votes for the fold number of its region with this weight, so that neighbors that
 // contradict each other do not change the number.
@@ -57,9 +59,6 @@ class ShearRepair {
         return static_cast<int>(at % static_cast<std::size_t>(sheet_.gates));
     }
     [[nodiscard]] bool has_value(std::size_t gate) const { return !std::isnan(sheet_.turns[gate]); }
-    [[nodiscard]] float unfolded(std::size_t gate) const {
-        return sheet_.turns[gate] + static_cast<float>(folds_[gate]);
-    }
     // Returns the radial after this radial, or -1 if there is none.
     [[nodiscard]] int after(int radial) const {
         if (radial + 1 < sheet_.radials) return radial + 1;
@@ -79,34 +78,62 @@ class ShearRepair {
         }
     }
 
+    // Counts the pairs, and the pairs that jump, that begin in a block of gates.
+    struct Block {
+        int pairs = 0, jumps = 0;
+    };
+    [[nodiscard]] Block count_block(const UnfoldedSheet& unfolded, int first_radial,
+                                    int run) const {
+        Block block;
+        const int first = run * UnfoldedSheet::run_gates;
+        const int end = std::min(first_radial + block_radials, sheet_.radials);
+        for (int radial = first_radial; radial < end; ++radial) {
+            const float* here = unfolded.row(radial);
+            const float* beside = unfolded.row_after(radial);
+            for (int gate = first; gate < first + UnfoldedSheet::run_gates; ++gate) {
+                for (const float apart : {here[gate] - here[gate + 1], here[gate] - beside[gate]}) {
+                    block.pairs += std::isnan(apart) ? 0 : 1;
+                    block.jumps += std::abs(apart) > UnfoldedSheet::jump_turns ? 1 : 0;
+                }
+            }
+        }
+        return block;
+    }
+
     void mark_about_jumps() {
-        struct Block {
-            int pairs = 0, jumps = 0;
-        };
-        const int across = sheet_.gates / block_gates + 1;
-        std::vector<Block> blocks(
-            static_cast<std::size_t>(across * (sheet_.radials / block_radials + 1)));
-        const auto block_of = [&](std::size_t at) -> Block& {
-            const int radial = radial_of(at) / block_radials, gate = gate_of(at) / block_gates;
-            return blocks[static_cast<std::size_t>(radial * across + gate)];
-        };
-        std::vector<std::pair<std::size_t, std::size_t>> jumps;
-        for_each_pair([&](std::size_t a, std::size_t b) {
-            Block& block = block_of(a);
-            ++block.pairs;
-            if (std::abs(unfolded(a) - unfolded(b)) <= 0.5F) return;
-            ++block.jumps;
-            jumps.emplace_back(a, b);
-        });
+        const UnfoldedSheet unfolded(sheet_, folds_);
         std::vector<std::uint8_t> is_marked(folds_.size(), 0);
-        for (const auto& [a, b] : jumps) {
-            const Block& block = block_of(a);
-            if (block.jumps > most_jumps * block.pairs) continue;
-            mark_about(a, is_marked);
-            mark_about(b, is_marked);
+        for (int first = 0; first < sheet_.radials; first += block_radials) {
+            const int end = std::min(first + block_radials, sheet_.radials);
+            for (int run = 0; run < unfolded.runs(); ++run) {
+                bool any = false;
+                for (int radial = first; radial < end; ++radial)
+                    any = any || unfolded.jumps(radial, run);
+                if (!any) continue;
+                const Block block = count_block(unfolded, first, run);
+                if (block.jumps > most_jumps * block.pairs) continue;
+                for (int radial = first; radial < end; ++radial)
+                    mark_about_jumps(unfolded, radial, run, is_marked);
+            }
         }
         for (std::size_t gate = 0; gate < folds_.size(); ++gate)
             if (is_marked[gate] != 0 && has_value(gate)) marked_.push_back(gate);
+    }
+    void mark_about_jumps(const UnfoldedSheet& unfolded, int radial, int run,
+                          std::vector<std::uint8_t>& is_marked) const {
+        if (!unfolded.jumps(radial, run)) return;
+        const float* here = unfolded.row(radial);
+        const float* beside = unfolded.row_after(radial);
+        const int first = run * UnfoldedSheet::run_gates;
+        for (int gate = first; gate < first + UnfoldedSheet::run_gates; ++gate) {
+            const auto mark_both = [&](int other_radial, int other_gate, float value) {
+                if (!(std::abs(here[gate] - value) > UnfoldedSheet::jump_turns)) return;
+                mark_about(sheet_.at(radial, gate), is_marked);
+                mark_about(sheet_.at(other_radial, other_gate), is_marked);
+            };
+            mark_both(radial, gate + 1, here[gate + 1]);
+            mark_both(unfolded.after(radial), gate, beside[gate]);
+        }
     }
     void mark_about(std::size_t at, std::vector<std::uint8_t>& is_marked) const {
         const int radial = radial_of(at), gate = gate_of(at);
