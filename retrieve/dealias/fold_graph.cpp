@@ -261,8 +261,10 @@ void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                     anchors[at(node)].cost(folds[at(node)] + shift);
         for (std::int32_t node = 0; node < graph.nodes; ++node) {
             const auto& of = costs[at(graph.component[at(node)])];
-            folds[at(node)] +=
-                static_cast<std::int32_t>(std::ranges::min_element(of) - of.begin()) - Votes::most;
+            const auto least = std::ranges::min_element(of);
+            // Leave a component that nobody votes about where it is.
+            if (*least < of[at(Votes::most)])
+                folds[at(node)] += static_cast<std::int32_t>(least - of.begin()) - Votes::most;
         }
     }
     std::int64_t looks = most_looks;

@@ -21,7 +21,7 @@ constexpr double most_jumps = 0.15;
 constexpr int block_radials = 8;
 
 // A gate votes for the fold number of its region with this weight, so that neighbors that
-// contradict each other do not change the number.
+// contradict each other do not change the number. An island of marked gates has no other anchors.
 constexpr float weight_of_staying = 0.06F;
 
 class ShearRepair {

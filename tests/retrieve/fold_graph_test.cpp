@@ -105,6 +105,16 @@ TEST(FoldGraph, EdgesOfTwoRegionsBecomeOne) {
     EXPECT_EQ(edges[0].votes.at(-1), 3);
 }
 
+TEST(FoldGraph, NodesThatNobodyAnchorsStay) {
+    FoldEdge edge{0, 1, {}};
+    edge.votes.add(1, 2);
+    const FoldGraph graph = fold_graph({edge}, 3, {0, 0, 0});
+    std::vector<std::int32_t> folds = likely_folds(graph);
+    const std::vector<std::int32_t> before = folds;
+    minimize_cost(graph, std::vector<Votes>(static_cast<std::size_t>(graph.nodes)), folds);
+    EXPECT_EQ(folds, before);
+}
+
 TEST(Votes, ARealNumberCostsItsDistance) {
     for (const float real : {-3.25F, -1.0F, 0.0F, 0.4F, 2.75F}) {
         Votes votes;

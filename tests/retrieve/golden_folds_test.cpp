@@ -112,5 +112,18 @@ TEST(GoldenFolds, UnfoldTheTornadoOfMoore) {
     EXPECT_LE(wrong, 1);
 }
 
+// On 2026-11-29, islands of gates about jumps in shear were unfolded to -375 m/s.
+TEST(GoldenFolds, NoGateIsFasterThanAnyWind) {
+    STORMCELLAR_NEED_DATA();
+    for (const char* file : {"KTLX19990503_235621.gz", "KLIX20050828_180149.gz"}) {
+        const auto decoded = level2::decode_file(*testing::data_directory() / "volumes" / file);
+        ASSERT_TRUE(decoded);
+        const Dealiased found = dealias(decoded->volume, Dealiasing::anchored);
+        for (const SweepFolds& sweep : found.sweeps)
+            for (const std::int8_t fold : sweep.folds)
+                ASSERT_LE(std::abs(fold), 2) << file << ", sweep " << sweep.sweep;
+    }
+}
+
 }  // namespace
 }  // namespace stormcellar::retrieve
