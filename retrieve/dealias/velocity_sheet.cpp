@@ -76,33 +76,40 @@ VelocitySheet sheet_of(const level2::Sweep& sweep, const level2::SweepMoment& mo
 
 }  // namespace
 
+std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep, std::size_t moment_index) {
+    std::vector<VelocitySheet> sheets;
+    const level2::SweepMoment& moment = sweep.moments[moment_index];
+    if (moment.moment != level2::Moment::vel || moment.gate_stride <= 0) return sheets;
+    const auto counts = [&](std::size_t radial) {
+        const level2::Radial& of = sweep.radials[radial];
+        return moment.gate_counts[radial] > 0 && of.nyquist_mps >= least_nyquist_mps &&
+               of.nyquist_mps <= most_nyquist_mps && std::isfinite(of.azimuth_deg) &&
+               std::isfinite(of.elevation_deg);
+    };
+    for (std::size_t first = 0; first < sweep.radials.size();) {
+        std::size_t end = first + 1;
+        while (end < sweep.radials.size() && counts(end) == counts(first) &&
+               sweep.radials[end].nyquist_mps == sweep.radials[first].nyquist_mps)
+            ++end;
+        if (counts(first)) {
+            VelocitySheet sheet = sheet_of(sweep, moment, first, end);
+            sheet.moment = moment_index;
+            const bool has_values =
+                std::ranges::any_of(sheet.turns, [](float turns) { return !std::isnan(turns); });
+            if (has_values) sheets.push_back(std::move(sheet));
+        }
+        first = end;
+    }
+    return sheets;
+}
+
 std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume) {
     std::vector<VelocitySheet> sheets;
     for (std::size_t s = 0; s < volume.sweeps.size(); ++s) {
-        const level2::Sweep& sweep = volume.sweeps[s];
-        for (std::size_t m = 0; m < sweep.moments.size(); ++m) {
-            const level2::SweepMoment& moment = sweep.moments[m];
-            if (moment.moment != level2::Moment::vel || moment.gate_stride <= 0) continue;
-            const auto counts = [&](std::size_t radial) {
-                const level2::Radial& of = sweep.radials[radial];
-                return moment.gate_counts[radial] > 0 && of.nyquist_mps >= least_nyquist_mps &&
-                       of.nyquist_mps <= most_nyquist_mps && std::isfinite(of.azimuth_deg) &&
-                       std::isfinite(of.elevation_deg);
-            };
-            for (std::size_t first = 0; first < sweep.radials.size();) {
-                std::size_t end = first + 1;
-                while (end < sweep.radials.size() && counts(end) == counts(first) &&
-                       sweep.radials[end].nyquist_mps == sweep.radials[first].nyquist_mps)
-                    ++end;
-                if (counts(first)) {
-                    VelocitySheet sheet = sheet_of(sweep, moment, first, end);
-                    sheet.sweep = s;
-                    sheet.moment = m;
-                    const bool has_values = std::ranges::any_of(
-                        sheet.turns, [](float turns) { return !std::isnan(turns); });
-                    if (has_values) sheets.push_back(std::move(sheet));
-                }
-                first = end;
+        for (std::size_t m = 0; m < volume.sweeps[s].moments.size(); ++m) {
+            for (VelocitySheet& sheet : velocity_sheets(volume.sweeps[s], m)) {
+                sheet.sweep = s;
+                sheets.push_back(std::move(sheet));
             }
         }
     }

@@ -41,5 +41,9 @@ struct VelocitySheet {
 // a value, and radials whose Nyquist velocity is not from 1 to 200 m/s or whose angles are not
 // finite.
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume);
+// Returns the sheets of one moment of a sweep, for which VelocitySheet::sweep is 0; none if the
+// moment is no velocity.
+[[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep,
+                                                         std::size_t moment);
 
 }  // namespace stormcellar::retrieve
