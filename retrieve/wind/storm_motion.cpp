@@ -102,7 +102,7 @@ Result<StormMotions> bunkers_motions(std::span<const WindAtHeight> winds, double
 Result<StormMotions> bunkers_motions(std::span<const WindLayer> layers) {
     std::vector<WindAtHeight> winds;
     for (const WindLayer& layer : layers) {
-        if (!layer.wind || layer.wind->has_birds) continue;
+        if (!layer.wind || layer.wind->birds == Birds::likely) continue;
         winds.push_back({layer.middle_m(), layer.wind->motion});
     }
     return bunkers_motions(winds, most_layer_gap_m);

@@ -16,6 +16,8 @@ constexpr double most_rms_per_nyquist = 0.4;
 constexpr double rejection_deviations = 3;
 constexpr double least_rejection_mps = 1.5;  // above the steps in which a radar sends velocities
 constexpr double deviation_per_median = 1.4826;
+// Ground clutter, and the air where it is calm, move less than this.
+constexpr float least_moving_mps = 1;
 constexpr int most_rounds = 20, rounds_by_sizes = 15;
 constexpr double least_size_mps = 0.5;
 constexpr double least_pivot = 1e-6;  // for each gate
@@ -90,30 +92,41 @@ std::optional<Solution> solve(std::span<const VvpGate> gates, const std::vector<
     return found;
 }
 
+bool is_moving(const VvpGate& gate) {
+    return std::abs(gate.velocity_mps) > least_moving_mps;
+}
+
 // Finds the wind with the least sum of absolute residuals, nearly, by weighting each gate with the
-// inverse of its residual. Up to a quarter of gates that have nothing to do with the wind hardly
-// move the result, even if they are all in one direction.
+// inverse of its residual. A sixth of gates that have nothing to do with the wind hardly move the
+// result, even if they are all in one direction. Gates that stand still have no weight here,
+// because clutter may be most of a layer; reject() lets them in where the wind is across the beam.
 std::optional<Solution> solve_by_sizes(std::span<const VvpGate> gates) {
-    std::vector<float> weights(gates.size(), 1);
+    std::vector<float> weights;
+    weights.reserve(gates.size());
+    for (const VvpGate& gate : gates)
+        weights.push_back(is_moving(gate) ? 1 : 0);
     std::optional<Solution> solution = solve(gates, weights);
     for (int round = 1; solution && round < rounds_by_sizes; ++round) {
-        for (std::size_t n = 0; n < gates.size(); ++n)
-            weights[n] = static_cast<float>(
-                1 / std::max(std::abs(residual(gates[n], solution->wind)), least_size_mps));
+        for (std::size_t n = 0; n < gates.size(); ++n) {
+            if (weights[n] == 0) continue;
+            const double size = std::abs(residual(gates[n], solution->wind));
+            weights[n] = static_cast<float>(1 / std::max(size, least_size_mps));
+        }
         solution = solve(gates, weights);
     }
     return solution;
 }
 
 // Marks the gates within three deviations of the wind, where the deviation is estimated from the
-// median of all residuals. Returns true if the marks changed.
+// median residual of the gates that move; there must be one. Returns true if the marks changed.
 bool reject(std::span<const VvpGate> gates, const Vector3& wind,
             std::vector<std::uint8_t>& was_used) {
-    std::vector<double> sizes;
+    std::vector<double> sizes, sorted;
     sizes.reserve(gates.size());
-    for (const VvpGate& gate : gates)
+    for (const VvpGate& gate : gates) {
         sizes.push_back(std::abs(residual(gate, wind)));
-    std::vector<double> sorted = sizes;
+        if (is_moving(gate)) sorted.push_back(sizes.back());
+    }
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     const double most =
@@ -179,6 +192,23 @@ double mean_nyquist_mps(std::span<const VvpGate> gates) {
     return sum / static_cast<double>(gates.size());
 }
 
+// Returns the reason why a fit is no wind, or none.
+std::optional<NoWind> objection(std::span<const VvpGate> gates, std::size_t moving,
+                                const VvpFit& fit) {
+    std::size_t still_used = 0, moving_used = 0;
+    for (std::size_t n = 0; n < gates.size(); ++n) {
+        if (fit.was_used[n] == 0) continue;
+        ++(is_moving(gates[n]) ? moving_used : still_used);
+    }
+    if (still_used > moving_used) return NoWind::clutter;
+    if (static_cast<double>(moving_used) < least_used_share * static_cast<double>(moving) ||
+        fit.wind.rms_mps > most_rms_per_nyquist * mean_nyquist_mps(gates))
+        return NoWind::scattered;
+    if (fit.wind.gates < least_gates) return NoWind::too_few_gates;
+    if (fit.wind.gap_deg > most_gap_deg) return NoWind::azimuth_gap;
+    return std::nullopt;
+}
+
 }  // namespace
 
 tl::expected<VvpFit, NoWind> fit_vvp(std::span<const VvpGate> gates) {
@@ -188,6 +218,8 @@ tl::expected<VvpFit, NoWind> fit_vvp(std::span<const VvpGate> gates) {
     fit.was_used.assign(gates.size(), 1);
     if (largest_gap_deg(gates, fit.was_used) > most_gap_deg)
         return tl::unexpected(NoWind::azimuth_gap);
+    const auto moving = static_cast<std::size_t>(std::ranges::count_if(gates, is_moving));
+    if (moving < least_gates) return tl::unexpected(NoWind::clutter);
     std::optional<Solution> solution = solve_by_sizes(gates);
     for (int round = 0; solution && round < most_rounds; ++round) {
         if (!reject(gates, solution->wind, fit.was_used)) break;
@@ -201,11 +233,7 @@ tl::expected<VvpFit, NoWind> fit_vvp(std::span<const VvpGate> gates) {
     wind.motion = {solution->wind[0], solution->wind[1]};
     if (solution->has_w) wind.w_mps = solution->wind[2];
     add_errors(gates, *solution, fit);
-    const bool is_scattered =
-        static_cast<double>(wind.gates) < least_used_share * static_cast<double>(gates.size()) ||
-        wind.rms_mps > most_rms_per_nyquist * mean_nyquist_mps(gates);
-    if (is_scattered) return tl::unexpected(NoWind::scattered);
-    if (wind.gap_deg > most_gap_deg) return tl::unexpected(NoWind::azimuth_gap);
+    if (const auto reason = objection(gates, moving, fit)) return tl::unexpected(*reason);
     return fit;
 }
 

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double least_bird_rms_mps = 1, least_bird_rms_single_mps = 2;
 constexpr float most_bird_correlation = 0.95F;
-constexpr float most_bird_dbz = 20;
+constexpr double most_bird_height_m = 5'000;
 
 struct LayerGates {
     std::vector<VvpGate> gates;
-    std::vector<float> correlations, reflectivities;  // NaN where there is none
+    std::vector<float> correlations;  // NaN where there is none
 };
 
 Status check(const WindProfileOptions& options) {
@@ -57,7 +57,6 @@ const SweepFolds* folds_of(const Dealiased& dealiased, const level2::Volume& vol
 void add_gates(const level2::Volume& volume, const VelocitySheet& sheet, const SweepFolds& folds,
                const WindProfileOptions& options, std::span<LayerGates> layers) {
     const CompanionMoment correlation(volume, level2::Moment::rho, sheet);
-    const CompanionMoment reflectivity(volume, level2::Moment::ref, sheet);
     const std::vector<float> heights = gate_heights_m(sheet);
     const double level = std::cos(sheet.elevation_deg * degree);
     VvpGate gate;
@@ -86,7 +85,6 @@ void add_gates(const level2::Volume& volume, const VelocitySheet& sheet, const S
             LayerGates& of = layers[static_cast<std::size_t>(layer)];
             of.gates.push_back(gate);
             of.correlations.push_back(correlation.at(radial, range));
-            of.reflectivities.push_back(reflectivity.at(radial, range));
         }
     }
 }
@@ -107,11 +105,14 @@ std::optional<float> median(const std::vector<float>& values,
     return *middle;
 }
 
-bool has_birds(const LayerGates& layer, const VvpFit& fit) {
-    if (const auto correlation = median(layer.correlations, fit.was_used))
-        return fit.wind.rms_mps >= least_bird_rms_mps && *correlation < most_bird_correlation;
-    const auto dbz = median(layer.reflectivities, fit.was_used);
-    return dbz && fit.wind.rms_mps >= least_bird_rms_single_mps && *dbz < most_bird_dbz;
+Birds birds_of(const LayerGates& layer, const VvpFit& fit, double height_m) {
+    const double rms = fit.wind.rms_mps;
+    if (const auto correlation = median(layer.correlations, fit.was_used)) {
+        const bool is_likely = rms >= least_bird_rms_mps && *correlation < most_bird_correlation;
+        return is_likely ? Birds::likely : Birds::none;
+    }
+    const bool is_possible = rms >= least_bird_rms_single_mps && height_m < most_bird_height_m;
+    return is_possible ? Birds::possible : Birds::none;
 }
 
 // Returns true if the volume has velocities, but no Nyquist velocity for any of them.
@@ -138,6 +139,8 @@ std::string_view text_of(NoWind reason) {
             return "too few gates";
         case NoWind::azimuth_gap:
             return "azimuths missing";
+        case NoWind::clutter:
+            return "clutter or calm";
         case NoWind::scattered:
             return "velocities scattered";
     }
@@ -183,7 +186,7 @@ Result<std::vector<WindLayer>> wind_profile(const level2::Volume& volume,
             continue;
         }
         layer.wind = fit->wind;
-        layer.wind->has_birds = has_birds(gates[i], *fit);
+        layer.wind->birds = birds_of(gates[i], *fit, layer.middle_m());
     }
     return layers;
 }

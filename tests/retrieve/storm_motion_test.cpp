@@ -78,10 +78,10 @@ TEST(StormMotion, IsRefusedWhereTheProfileDoesNotReach) {
     EXPECT_EQ(refusal(layers), "the lowest wind is 0.7 km above the radar, not 0.5");
     layers = layers_up_to(7'000);
     for (std::size_t i = 10; i < 18; ++i)
-        layers[i].wind->has_birds = true;
+        layers[i].wind->birds = Birds::likely;
     EXPECT_EQ(refusal(layers), "no wind from 1.9 to 3.7 km above the radar");
     for (std::size_t i = 10; i < 12; ++i)
-        layers[i].wind->has_birds = false;
+        layers[i].wind->birds = Birds::possible;
     EXPECT_EQ(refusal(layers), "");
 }
 

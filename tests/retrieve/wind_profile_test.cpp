@@ -138,19 +138,19 @@ TEST(WindProfile, StandardErrorsAreTheScatterOfTheResults) {
     EXPECT_NEAR(std::sqrt(variances / squares), 1, 0.5);
 }
 
-// In one quarter of the circle all gates have the velocity of something else.
-TEST(WindProfile, RejectsAQuarterThatMovesOtherwise) {
+// In 60 degrees of azimuth all gates have the velocity of something else.
+TEST(WindProfile, RejectsASectorThatMovesOtherwise) {
     const FoldedVolume mixed =
         fold(full_volume(60), [](double azimuth, double, double elevation, double height) {
-            return azimuth < 90 ? -20 : seen_of(sheared_wind(height), azimuth, elevation);
+            return azimuth < 60 ? -20 : seen_of(sheared_wind(height), azimuth, elevation);
         });
     const Layers layers = profile_of(mixed.volume, Dealiasing::off);
     for (const WindLayer& layer : layers) {
         if (!layer.wind) continue;
         EXPECT_NEAR(layer.wind->motion.u_mps, sheared_wind(layer.middle_m()).u_mps, 0.5);
         EXPECT_NEAR(layer.wind->motion.v_mps, sheared_wind(layer.middle_m()).v_mps, 0.5);
-        EXPECT_GT(layer.wind->rejected_gates, layer.wind->gates / 5);
-        EXPECT_EQ(layer.wind->gap_deg, 90);
+        EXPECT_GT(layer.wind->rejected_gates, layer.wind->gates / 7);
+        EXPECT_EQ(layer.wind->gap_deg, 60);
     }
     EXPECT_GE(layers_with_wind(layers), 50U);
 }
@@ -163,6 +163,34 @@ TEST(WindProfile, MeasuresFallSpeed) {
     ASSERT_TRUE(layers[40].wind && layers[40].wind->w_mps);
     EXPECT_NEAR(*layers[40].wind->w_mps, -7, 0.3);
     EXPECT_NEAR(layers[40].wind->motion.u_mps, 5, 0.2);
+}
+
+// Of five gates, three are clutter, whose velocity is zero.
+TEST(WindProfile, IsRightInClutter) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> fifth(1, 5);
+    FoldedSpec spec = full_volume(33);
+    spec.noise_mps = 0.4;
+    const Layers layers =
+        profile_of(spec, [&](double azimuth, double, double elevation, double height) {
+            return fifth(random) <= 3 ? 0 : seen_of(sheared_wind(height), azimuth, elevation);
+        });
+    int checked = 0;
+    for (const WindLayer& layer : layers) {
+        const Motion truth = sheared_wind(layer.middle_m());
+        if (!layer.wind || truth.speed_mps() < 12) continue;
+        EXPECT_NEAR(layer.wind->motion.u_mps, truth.u_mps, 1) << layer.bottom_m;
+        EXPECT_NEAR(layer.wind->motion.v_mps, truth.v_mps, 1) << layer.bottom_m;
+        ++checked;
+    }
+    EXPECT_GE(checked, 35);
+}
+
+TEST(WindProfile, ClutterAloneIsNoWind) {
+    FoldedSpec spec = full_volume(33);
+    spec.noise_mps = 0.4;
+    const auto calm = [](double) { return Motion{}; };
+    expect_no_wind(profile_of(spec, seen_everywhere(calm)), NoWind::clutter);
 }
 
 // With level beams, w has no effect.
@@ -239,24 +267,23 @@ void add_moment(level2::Volume& volume, level2::Moment name, float value) {
     }
 }
 
-bool birds_of(double noise_mps, level2::Moment name, float value) {
+std::array<Birds, 2> birds_of(double noise_mps, level2::Moment name, float value) {
     FoldedSpec spec = full_volume(33);
     spec.noise_mps = noise_mps;
     FoldedVolume folded = fold(spec, seen_everywhere(uniform_wind));
     add_moment(folded.volume, name, value);
     const Layers layers = profile_of(folded.volume);
-    return layers[5].wind->has_birds;
+    return {layers[5].wind->birds, layers[30].wind->birds};  // at 1.1 and 6.1 km
 }
 
 TEST(WindProfile, MarksBirds) {
     using enum level2::Moment;
-    EXPECT_TRUE(birds_of(2, rho, 0.7F));
-    EXPECT_FALSE(birds_of(2, rho, 0.99F)) << "rain";
-    EXPECT_FALSE(birds_of(0.5, rho, 0.7F)) << "insects, which drift with the wind";
-    EXPECT_TRUE(birds_of(3, ref, 5));
-    EXPECT_FALSE(birds_of(3, ref, 35)) << "rain";
-    EXPECT_FALSE(birds_of(1.2, ref, 5));
-    EXPECT_FALSE(birds_of(3, sw, 5)) << "nothing tells birds from rain";
+    using Both = std::array<Birds, 2>;
+    EXPECT_EQ(birds_of(2, rho, 0.7F), (Both{Birds::likely, Birds::likely}));
+    EXPECT_EQ(birds_of(3, rho, 0.99F), (Both{Birds::none, Birds::none})) << "rain";
+    EXPECT_EQ(birds_of(0.5, rho, 0.7F), (Both{Birds::none, Birds::none})) << "insects";
+    EXPECT_EQ(birds_of(3, ref, 5), (Both{Birds::possible, Birds::none}));
+    EXPECT_EQ(birds_of(1.2, ref, 5), (Both{Birds::none, Birds::none}));
 }
 
 TEST(WindProfile, FindsCorrelationInTheOtherHalfOfASplitCut) {
@@ -269,7 +296,7 @@ TEST(WindProfile, FindsCorrelationInTheOtherHalfOfASplitCut) {
         sweep.moments.erase(sweep.moments.begin());
         folded.volume.sweeps.push_back(sweep);
     }
-    EXPECT_TRUE(profile_of(folded.volume)[5].wind->has_birds);
+    EXPECT_EQ(profile_of(folded.volume)[5].wind->birds, Birds::likely);
 }
 
 TEST(WindProfile, RefusesOtherFoldsAndOptions) {

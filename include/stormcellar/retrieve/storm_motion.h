@@ -45,7 +45,7 @@ struct WindAtHeight {
 // winds at 0 to 500 m and 5.5 to 6 km are the same, so that there is no shear.
 [[nodiscard]] Result<StormMotions> bunkers_motions(std::span<const WindAtHeight> winds,
                                                    double most_gap_m = 3'000);
-// Uses the layers that have a wind and no birds, at most 1500 m apart. Errors: as above.
+// Uses the layers that have a wind and not likely birds, at most 1500 m apart. Errors: as above.
 [[nodiscard]] Result<StormMotions> bunkers_motions(std::span<const WindLayer> layers);
 
 // Returns the radial velocity of a gate relative to a storm.

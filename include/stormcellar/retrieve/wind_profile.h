@@ -5,7 +5,8 @@
 //     (u sin a + v cos a) cos e + w sin e
 // with three parameters u, v and w, where w is the vertical velocity of the scatterers: the air's
 // and their fall. Gates that differ from the fit by more than three robust standard deviations are
-// rejected and the fit is repeated, until the same gates remain.
+// rejected and the fit is repeated, until the same gates remain. The first fit, by the least sum of
+// absolute differences, leaves out velocities within 1 m/s of zero, most of which are clutter.
 //
 // Units     m/s; u toward the east, v toward the north, w upward. Heights in meters ABOVE THE
 //           ANTENNA; add antenna_position()->altitude_m for heights above sea level. Angles in
@@ -40,6 +41,7 @@ enum class NoWind : std::uint8_t {
     no_nyquist,     // the file lacks the Nyquist velocity, so velocities cannot be unfolded (TDWR)
     too_few_gates,  // fewer than 30
     azimuth_gap,    // no gates in more than 120 degrees of azimuth
+    clutter,        // most velocities are within 1 m/s of zero: ground clutter, or calm air
     scattered,      // the velocities fit no wind: noise, wrong folds, or very different winds
 };
 // Returns for example "too few gates".
@@ -54,6 +56,18 @@ struct Motion {
     [[nodiscard]] double direction_deg() const;
 };
 
+// Signs of birds, which fly up to 15 m/s faster than the wind, in their own direction.
+enum class Birds : std::uint8_t {
+    none,
+    // Only with single polarization, up to 5 km above the antenna: an rms of at least 2 m/s
+    // (Holleman et al. 2008). Winds that differ from place to place look the same.
+    possible,
+    // Only with dual polarization: an rms of at least 1 m/s (Dokter et al. 2019, for S band), and a
+    // median correlation coefficient below 0.95 (Dokter et al. 2011, 2019). Insects, which drift
+    // with the wind, have a smaller rms.
+    likely,
+};
+
 struct LayerWind {
     Motion motion;
     std::optional<double> w_mps = std::nullopt;  // none if all beams are level
@@ -61,12 +75,7 @@ struct LayerWind {
     double rms_mps = 0;                          // of velocities about the fit, over the gates used
     std::size_t gates = 0, rejected_gates = 0;   // used and rejected
     double gap_deg = 0;  // the largest gap in azimuth, in steps of 5 degrees
-    // True if the scatterers are probably birds, which fly up to 15 m/s faster than the wind: the
-    // rms is at least 1 m/s (S band, Dokter et al. 2019) and the median correlation coefficient is
-    // below 0.95. Without dual polarization, the rms must be at least 2 m/s (Holleman et al. 2008)
-    // and the median reflectivity below 20 dBZ (Dokter et al. 2011). False if the volume has
-    // neither moment.
-    bool has_birds = false;
+    Birds birds = Birds::none;
 };
 
 struct WindLayer {
