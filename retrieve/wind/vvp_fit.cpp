@@ -13,6 +13,9 @@ constexpr double most_gap_deg = 120;
 constexpr double least_used_share = 0.5;
 // Noise that is spread evenly over the Nyquist interval has an rms of 0.58 Nyquist velocities.
 constexpr double most_rms_per_nyquist = 0.4;
+// An rms above the first limit is allowed in strong winds only, where the fit explains three
+// quarters of the variance: mixtures of clutter and wind have such an rms, too.
+constexpr double greatest_rms_mps = 3.5, most_rms_per_speed = 0.4;
 constexpr double rejection_deviations = 3;
 constexpr double least_rejection_mps = 1.5;  // above the steps in which a radar sends velocities
 constexpr double deviation_per_median = 1.4826;
@@ -202,7 +205,9 @@ std::optional<NoWind> objection(std::span<const VvpGate> gates, std::size_t movi
     }
     if (still_used > moving_used) return NoWind::clutter;
     if (static_cast<double>(moving_used) < least_used_share * static_cast<double>(moving) ||
-        fit.wind.rms_mps > most_rms_per_nyquist * mean_nyquist_mps(gates))
+        fit.wind.rms_mps > most_rms_per_nyquist * mean_nyquist_mps(gates) ||
+        fit.wind.rms_mps >
+            std::max(greatest_rms_mps, most_rms_per_speed * fit.wind.motion.speed_mps()))
         return NoWind::scattered;
     if (fit.wind.gates < least_gates) return NoWind::too_few_gates;
     if (fit.wind.gap_deg > most_gap_deg) return NoWind::azimuth_gap;

@@ -169,21 +169,31 @@ TEST(WindProfile, MeasuresFallSpeed) {
 TEST(WindProfile, IsRightInClutter) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> fifth(1, 5);
-    FoldedSpec spec = full_volume(33);
+    FoldedSpec spec = full_volume(60);
     spec.noise_mps = 0.4;
-    const Layers layers =
-        profile_of(spec, [&](double azimuth, double, double elevation, double height) {
+    const FoldedVolume mixed =
+        fold(spec, [&](double azimuth, double, double elevation, double height) {
             return fifth(random) <= 3 ? 0 : seen_of(sheared_wind(height), azimuth, elevation);
         });
     int checked = 0;
-    for (const WindLayer& layer : layers) {
+    for (const WindLayer& layer : profile_of(mixed.volume, Dealiasing::off)) {
         const Motion truth = sheared_wind(layer.middle_m());
         if (!layer.wind || truth.speed_mps() < 12) continue;
         EXPECT_NEAR(layer.wind->motion.u_mps, truth.u_mps, 1) << layer.bottom_m;
         EXPECT_NEAR(layer.wind->motion.v_mps, truth.v_mps, 1) << layer.bottom_m;
         ++checked;
     }
-    EXPECT_GE(checked, 35);
+    EXPECT_GE(checked, 45);
+}
+
+// Half of the circle moves with one wind, and half with the opposite one.
+TEST(WindProfile, TwoWindsAreNoWind) {
+    const Layers layers =
+        profile_of(full_volume(33), [](double azimuth, double, double elevation, double) {
+            return std::fmod(azimuth, 90) < 45 ? seen_of({8, 0}, azimuth, elevation)
+                                               : seen_of({-8, 4}, azimuth, elevation);
+        });
+    expect_no_wind(layers, NoWind::scattered);
 }
 
 TEST(WindProfile, ClutterAloneIsNoWind) {
