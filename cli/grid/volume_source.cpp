@@ -11,9 +11,6 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr std::string_view how_to_place =
-    "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
-
 // Adds the dealiased velocity. If any moment will do, a volume need not have velocities.
 Status add_derived(const GridRequest& request, level2::Volume& volume) {
     const auto dealiased = retrieve::add_dealiased_velocity(volume, request.dealiasing);

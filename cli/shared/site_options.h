@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "cli/shared/commands.h"
 #include "stormcellar/base/result.h"
@@ -20,6 +21,9 @@ struct SiteOptions {
     std::string position;
 };
 void add_site_options(CLI::App& app, SiteOptions& options);
+// The end of a message that says that the position of a radar is unknown.
+inline constexpr std::string_view how_to_place =
+    "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
 
 struct SiteRequest {
     std::string station;  // empty: as in the file

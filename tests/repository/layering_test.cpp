@@ -76,6 +76,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"view", {"color", "image"}},
       {"volume", {"color", "image", "view"}},
       {"products", {"color", "image", "view"}},
+      {"wind", {"image", "view"}},
       {"map", {"color", "image", "products", "view", "volume"}},
       {"plan", {"color", "image", "view", "volume"}},
       {"frame", {"image", "map", "products", "view", "volume"}},
@@ -118,6 +119,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"batch", {"grid", "loop", "shared"}},
       {"accuracy", {"grid", "picture", "shared"}},
       {"synth", {"shared"}},
+      {"velocity", {"shared"}},
       {"serve", {"grid", "shared"}},
       {"reference", {"shared"}}}},
 };
