@@ -84,8 +84,9 @@ class ProfileTable {
     [[nodiscard]] std::string row(const WindLayer& layer) const {
         const LayerWind& wind = *layer.wind;
         const double error = std::max(wind.u_error_mps, wind.v_error_mps);
-        const std::string birds =
-            wind.birds == Birds::none ? "" : fmt::format("  birds {}", birds_text(wind.birds));
+        const std::string_view birds = wind.birds == Birds::none     ? ""
+                                       : wind.birds == Birds::likely ? "  birds"
+                                                                     : "  birds?";
         return fmt::format("{:>8} {:>5.0f} {:>6.1f} {:>6.1f} {:>6.1f} {:>7} {:>4.0f}{}\n",
                            height(layer), direction(wind.motion),
                            wind.motion.speed_mps() / speed_.si, error / speed_.si,

@@ -19,7 +19,8 @@ using retrieve::WindLayer;
 constexpr double title_height_px = 50, key_height_px = 108, side_margin_px = 14;
 constexpr int most_rings_shown = 6;
 constexpr double least_span_mps = 12;
-constexpr double most_gap_m = 650;  // winds farther apart are joined by a thin line
+// Winds farther apart than the first are joined by a thin line, farther than the second by none.
+constexpr double most_gap_m = 650, widest_gap_m = 1'500;
 
 constexpr std::size_t band_count = 5;
 using Edges = std::array<double, band_count - 1>;
@@ -124,34 +125,46 @@ class Hodograph {
                                 plan_.calm.y - radius * std::cos(2 * k * degree)});
             on_.canvas().line(ring, scale_, shades.ring, true);
         }
-        for (int i = 1; i * plan_.ring_step_mps < farthest; ++i)
-            write_ring(i * plan_.ring_step_mps);
+        write_rings(static_cast<int>(farthest / plan_.ring_step_mps));
     }
 
-    // Writes the speed of a ring below calm, or else above, left or right of it.
-    void write_ring(double speed_mps) {
-        const double away = speed_mps * plan_.px_per_mps;
-        const Rect& plot = plan_.plot;
-        for (const Point& towards : {Point{0, 1}, {0, -1}, {-1, 0}, {1, 0}}) {
-            const Point at{plan_.calm.x + away * towards.x, plan_.calm.y + away * towards.y};
-            const double margin = 16 * scale_;
-            if (at.x < plot.x + margin || at.x > plot.right() - margin || at.y < plot.y + margin ||
-                at.y > plot.bottom() - margin)
-                continue;
-            on_.write(number_text(speed_mps / speed_.si, 3), {at.x, at.y + 3.5 * scale_},
+    // Writes the speeds of the rings in the direction from calm in which the most rings are on the
+    // plot.
+    void write_rings(int rings) {
+        std::vector<Point> most;
+        for (const Point& toward : {Point{0, 1}, {0, -1}, {-1, 0}, {1, 0}}) {
+            std::vector<Point> shown;
+            for (int i = 1; i <= rings; ++i) {
+                const double away = i * plan_.ring_step_mps * plan_.px_per_mps;
+                const Point at{plan_.calm.x + away * toward.x, plan_.calm.y + away * toward.y};
+                if (is_inside(at, 20 * scale_)) shown.push_back(at);
+            }
+            if (shown.size() > most.size()) most = shown;
+        }
+        for (const Point& at : most) {
+            const double speed =
+                std::hypot(at.x - plan_.calm.x, at.y - plan_.calm.y) / plan_.px_per_mps;
+            on_.write(fmt::format("{} {}", number_text(speed / speed_.si, 3), speed_.symbol),
+                      {at.x, at.y + 3.5 * scale_},
                       {.size = 10, .is_quiet = true, .share = 0.5, .has_halo = true});
-            return;
         }
     }
 
+    [[nodiscard]] bool is_inside(Point at, double margin) const {
+        const Rect& plot = plan_.plot;
+        return at.x >= plot.x + margin && at.x <= plot.right() - margin &&
+               at.y >= plot.y + margin && at.y <= plot.bottom() - margin;
+    }
+
     // Draws the line from layer to layer, each piece in the color of its height. Pieces over a gap,
-    // and pieces that end at birds, are thin.
+    // and pieces that end at birds, are thin. A wide gap stays open.
     void draw_line() {
         for (std::size_t i = 1; i < layers_.size(); ++i) {
             const WindLayer& low = *layers_[i - 1];
             const WindLayer& high = *layers_[i];
-            const bool is_sure = high.middle_m() - low.middle_m() <= most_gap_m &&
-                                 low.wind->birds != retrieve::Birds::likely &&
+            const double gap = high.middle_m() - low.middle_m();
+            if (gap > widest_gap_m) continue;
+            const bool is_sure = gap <= most_gap_m && low.wind->birds != retrieve::Birds::likely &&
                                  high.wind->birds != retrieve::Birds::likely;
             const double middle = (low.middle_m() + high.middle_m()) / 2;
             on_.canvas().line({plan_.at(low.wind->motion), plan_.at(high.wind->motion)},

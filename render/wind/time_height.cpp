@@ -16,6 +16,7 @@ using retrieve::WindLayer;
 constexpr double top_edge_px = 66, bottom_edge_px = 86, left_edge_px = 46, right_edge_px = 18;
 constexpr double least_shown_m = 3'000;  // above the antenna
 constexpr double column_px = 26, row_px = 15;
+constexpr double least_barb_px = 24, most_barb_px = 36;
 
 constexpr std::size_t class_count = 5;
 // Returns the speed at which a class of color ends, in m/s.
@@ -91,7 +92,7 @@ class TimeHeight {
                   {14 * scale_, plot.y - 8 * scale_},
                   {.size = 10, .is_quiet = true, .room = plot.width});
         const double step = round_step((plan_.top_m - plan_.bottom_m) / height_.si,
-                                       std::max(2, static_cast<int>(plot.height / (30 * scale_))));
+                                       std::max(2, static_cast<int>(plot.height / (48 * scale_))));
         const auto begin = static_cast<int>(std::ceil(plan_.bottom_m / height_.si / step - 1e-9));
         for (int i = begin; i * step * height_.si <= plan_.top_m; ++i) {
             const double y = plan_.y_of(i * step * height_.si);
@@ -203,7 +204,7 @@ TimeHeightPlan plan_time_height(const WindPage& page, std::span<const WindColumn
     plan.last = columns.back().time;
     plan.bottom_m = page.antenna_altitude_m;
     plan.top_m = page.antenna_altitude_m + highest_wind_m(columns) * 1.03;
-    plan.barb_px = 24 * scale;
+    plan.barb_px = least_barb_px * scale;
     plan.columns = columns_apart(plan, columns, column_px * scale);
     const auto& layers = columns.front().layers;
     if (!layers.empty()) {
@@ -211,6 +212,9 @@ TimeHeightPlan plan_time_height(const WindPage& page, std::span<const WindColumn
             plan.y_of(layers.front().bottom_m) - plan.y_of(layers.front().top_m);
         plan.layer_step = static_cast<std::size_t>(
             std::max(1.0, std::ceil(row_px * scale / std::max(layer_px, 0.01))));
+        const double room = std::min(static_cast<double>(plan.layer_step) * layer_px,
+                                     plan.plot.width / static_cast<double>(plan.columns.size()));
+        plan.barb_px = std::clamp(0.9 * room, least_barb_px * scale, most_barb_px * scale);
     }
     return plan;
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double barb_share = 0.42;  // of the staff, the length of a long barb
 constexpr double step_share = 0.15;  // of the staff, from one barb to the next
+constexpr double flag_share = 0.22;  // of the staff, the base of a flag
 
 }  // namespace
 
@@ -39,8 +40,8 @@ void draw_wind_barb(Canvas& canvas, Point place, const retrieve::Motion& wind, d
     canvas.line({place, at(1, 0)}, line_width, color, false);
     double out = 1;
     for (int i = 0; i < parts.flags; ++i) {
-        canvas.fill({at(out, 0), at(out, barb_share), at(out - step_share, 0)}, color);
-        out -= step_share;
+        canvas.fill({at(out, 0), at(out, barb_share), at(out - flag_share, 0)}, color);
+        out -= flag_share;
     }
     if (parts.flags > 0) out -= step_share / 2;
     for (int i = 0; i < parts.long_barbs; ++i) {
