@@ -210,11 +210,13 @@ class Hodograph {
         }
     }
 
+    [[nodiscard]] double motions_left() const { return page_.width * 0.42; }
+
     // Writes the key of the colors, left below the plot.
     void write_heights() {
         const double left = plan_.plot.x, top = plan_.plot.bottom();
         const UnitFacts& height = facts_of(page_.units.height);
-        const double room = page_.width * 0.4;
+        const double room = motions_left() - left - 10 * scale_;
         on_.write(fmt::format("Height above the radar, {}", height.symbol),
                   {left, top + 16 * scale_}, {.size = 11, .is_bold = true, .room = room});
         const Edges edges = edges_of(page_.units);
@@ -232,7 +234,7 @@ class Hodograph {
 
     // Writes the storm motions, or the reason why there are none, right of the key.
     void write_motions() {
-        const double left = page_.width * 0.42, top = plan_.plot.bottom();
+        const double left = motions_left(), top = plan_.plot.bottom();
         const double room = page_.width - left - side_margin_px * scale_;
         const auto row = [&](int number) { return top + (16 + 15 * number) * scale_; };
         int next = 1;

@@ -16,7 +16,7 @@ struct TimeHeightPlan {
     Rect plot;
     UtcTime first, last;
     double bottom_m = 0, top_m = 1;    // above sea level
-    std::size_t layer_step = 1;        // each how-many-th layer is drawn
+    std::size_t layer_step = 1;        // 2: every other layer is drawn
     std::vector<std::size_t> columns;  // the volumes that are drawn
     double barb_px = 24;
 

@@ -101,10 +101,17 @@ Result<StormMotions> bunkers_motions(std::span<const WindAtHeight> winds, double
 
 Result<StormMotions> bunkers_motions(std::span<const WindLayer> layers) {
     std::vector<WindAtHeight> winds;
+    bool has_birds = false;
     for (const WindLayer& layer : layers) {
-        if (!layer.wind || layer.wind->birds == Birds::likely) continue;
+        if (!layer.wind) continue;
+        if (layer.wind->birds == Birds::likely) {
+            has_birds = true;
+            continue;
+        }
         winds.push_back({layer.middle_m(), layer.wind->motion});
     }
+    if (winds.empty() && has_birds)
+        return fail(ErrorCode::not_found, "all winds are likely those of birds");
     return bunkers_motions(winds, most_layer_gap_m);
 }
 

@@ -83,6 +83,9 @@ TEST(StormMotion, IsRefusedWhereTheProfileDoesNotReach) {
     for (std::size_t i = 10; i < 12; ++i)
         layers[i].wind->birds = Birds::possible;
     EXPECT_EQ(refusal(layers), "");
+    for (WindLayer& layer : layers)
+        layer.wind->birds = Birds::likely;
+    EXPECT_EQ(refusal(layers), "all winds are likely those of birds");
 }
 
 TEST(StormMotion, IsRefusedWithoutShear) {

@@ -13,7 +13,7 @@
 //           degrees clockwise from north.
 // Source    The three-parameter VVP of Holleman (2005), who found it better than VAD and than VVP
 //           with more parameters. Birds: Holleman et al. (2008), Dokter et al. (2011, 2019).
-// Accuracy  u and v are within 0.5 m/s of uniform and sheared winds (5.6 m/s a kilometer) with
+// Accuracy  u and v are within 0.25 m/s of uniform and sheared winds (5.6 m/s a kilometer) with
 //           1 m/s of noise, folded at Nyquist velocities of 8 to 33 m/s and unfolded by
 //           Dealiasing::anchored (tests/retrieve/wind_profile_test.cpp). The standard errors count
 //           the gates of 5 degrees of azimuth as one measurement, because their errors are alike.
