@@ -56,11 +56,11 @@ struct Motion {
     [[nodiscard]] double direction_deg() const;
 };
 
-// Signs of birds, which fly up to 15 m/s faster than the wind, in their own direction.
+// Signs of birds, whose flight adds about 9 m/s to the speed (Holleman et al. 2008).
 enum class Birds : std::uint8_t {
     none,
     // Only with single polarization, up to 5 km above the antenna: an rms of at least 2 m/s
-    // (Holleman et al. 2008). Winds that differ from place to place look the same.
+    // (Holleman et al. 2008, for C band). Winds that differ from place to place look the same.
     possible,
     // Only with dual polarization: an rms of at least 1 m/s (Dokter et al. 2019, for S band), and a
     // median correlation coefficient below 0.95 (Dokter et al. 2011, 2019). Insects, which drift
