@@ -15,6 +15,7 @@ int knowledge(CellStatus status) {
         case CellStatus::not_seen:
             return 0;
         case CellStatus::range_folded:
+        case CellStatus::ambiguous:
             return 1;
         case CellStatus::no_echo:
             return 2;
@@ -78,13 +79,14 @@ class LayerSweep {
                 return CellStatus::range_folded;
             case level2::GateStatus::below_threshold:
                 return CellStatus::no_echo;
+            case level2::GateStatus::ambiguous:
             case level2::GateStatus::valid:
                 break;
         }
         const std::size_t at =
             radial * static_cast<std::size_t>(moment_.gate_stride) + static_cast<std::size_t>(gate);
-        const bool is_usable = rows_[radial] != nullptr && folds_.ambiguous[at] == 0;
-        return is_usable ? CellStatus::no_echo : CellStatus::not_seen;
+        if (folds_.ambiguous[at] != 0) return CellStatus::ambiguous;
+        return rows_[radial] != nullptr ? CellStatus::no_echo : CellStatus::not_seen;
     }
 
     const level2::Sweep& sweep_;
