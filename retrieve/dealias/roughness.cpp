@@ -9,8 +9,9 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr int reach = 2;        // gates on each side
-constexpr int least_pairs = 6;  // fewer pairs count as this many
+constexpr int reach = 4;         // gates on each side
+constexpr int radial_reach = 2;  // radials on each side
+constexpr int least_pairs = 5;   // fewer pairs count as this many
 
 struct PairSum {
     float difference = 0;
@@ -46,13 +47,13 @@ class RoughGates {
     // Returns the radial with this number, which may lie beyond the ends of a circle, or -1.
     [[nodiscard]] int radial_at(int number) const {
         if (number >= 0 && number < sheet_.radials) return number;
-        if (!sheet_.is_circle || sheet_.radials <= 2 * reach) return -1;
+        if (!sheet_.is_circle || sheet_.radials <= 2 * radial_reach) return -1;
         return (number + sheet_.radials) % sheet_.radials;
     }
     // Notes which runs have a rough difference in the radials about this one.
     void gather_rough_runs(int radial) {
         near_.assign(static_cast<std::size_t>(unfolded_.runs()), 0);
-        for (int away = -reach; away <= reach; ++away) {
+        for (int away = -radial_reach; away <= radial_reach; ++away) {
             const int number = radial_at(radial + away);
             if (number < 0) continue;
             const std::uint8_t* marks = unfolded_.marks(number);
@@ -71,12 +72,11 @@ class RoughGates {
     [[nodiscard]] PairSum column(int radial, int gate) const {
         PairSum sum;
         if (gate < 0 || gate >= sheet_.gates) return sum;
-        for (int away = -reach; away <= reach; ++away) {
+        for (int away = -radial_reach; away <= radial_reach; ++away) {
             const int near = radial_at(radial + away);
             if (near < 0) continue;
             const float* row = unfolded_.row(near);
             sum.add(row[gate], row[gate + 1]);
-            sum.add(row[gate], unfolded_.row_after(near)[gate]);
         }
         return sum;
     }

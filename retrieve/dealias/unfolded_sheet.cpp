@@ -33,7 +33,7 @@ void UnfoldedSheet::mark_runs(int radial) {
         for (int gate = 0; gate < run_gates; ++gate) {
             const float along = std::abs(here[gate] - here[gate + 1]);
             const float across = std::abs(here[gate] - beside[gate]);
-            rough += (along > rough_turns ? 1 : 0) + (across > rough_turns ? 1 : 0);
+            rough += along > rough_turns ? 1 : 0;
             jumps += (along > jump_turns ? 1 : 0) + (across > jump_turns ? 1 : 0);
         }
         const int mark = jumps > 0 ? 2 : rough > 0 ? 1 : 0;

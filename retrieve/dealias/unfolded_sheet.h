@@ -36,8 +36,9 @@ class UnfoldedSheet {
         return is_circle_ ? 0 : radials_;
     }
     [[nodiscard]] int runs() const { return runs_; }
-    // Returns a mark for each run of gates of a radial: 1 if a gate of the run and the next gate of
-    // its radial, or the gate beside it in the next radial, differ roughly; 2 if such a pair jumps.
+    // Returns a mark for each run of gates of a radial: 2 if a gate of the run and the next gate of
+    // its radial, or the gate beside it in the next radial, differ by a jump; else 1 if a gate and
+    // the next gate of its radial differ roughly; else 0.
     [[nodiscard]] const std::uint8_t* marks(int radial) const {
         return marks_.data() + static_cast<std::size_t>(radial) * static_cast<std::size_t>(runs_);
     }
@@ -50,7 +51,7 @@ class UnfoldedSheet {
     bool is_circle_;
     std::size_t stride_;
     std::vector<float> turns_;         // (radials + 1) x stride
-    std::vector<std::uint8_t> marks_;  // radials x runs: 1 rough, 2 jumps
+    std::vector<std::uint8_t> marks_;  // radials x runs: see marks()
 };
 
 }  // namespace stormcellar::retrieve

@@ -85,8 +85,8 @@ class LayerSweep {
         }
         const std::size_t at =
             radial * static_cast<std::size_t>(moment_.gate_stride) + static_cast<std::size_t>(gate);
-        if (folds_.ambiguous[at] != 0) return CellStatus::ambiguous;
-        return rows_[radial] != nullptr ? CellStatus::no_echo : CellStatus::not_seen;
+        if (rows_[radial] == nullptr) return CellStatus::not_seen;
+        return folds_.ambiguous[at] != 0 ? CellStatus::ambiguous : CellStatus::no_echo;
     }
 
     const level2::Sweep& sweep_;

@@ -149,7 +149,7 @@ TEST(ShearLayer, TellsItsStatesApart) {
     };
     EXPECT_EQ(status(45, 50), CellStatus::no_echo);
     EXPECT_EQ(status(135, 50), CellStatus::range_folded);
-    EXPECT_EQ(status(210, 50), CellStatus::not_seen) << "ambiguous";
+    EXPECT_EQ(status(210, 50), CellStatus::ambiguous);
     EXPECT_EQ(status(250, 50), CellStatus::value);
     EXPECT_EQ(status(305, 50), CellStatus::not_seen) << "no radials";
     EXPECT_EQ(status(250, 140), CellStatus::not_seen) << "above the layer";

@@ -16,7 +16,7 @@
 // Accuracy  The rung `anchored` is right at 99.9 % of the gates of uniform, sheared and rotating
 //           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
 //           (tests/retrieve/dealias_test.cpp). In noisy data the search may stop before the best
-//           solution. `ambiguous` marks half to three quarters of the wrong gates.
+//           solution. `ambiguous` marks about a third of the wrong gates.
 // Errors    dealiasing_from_name() and add_dealiased_velocity() say what is wrong. dealias() has
 //           none: the fold number is 0 for gates without a value, for radials whose Nyquist
 //           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
