@@ -1,0 +1,48 @@
+// retrieve/cyclone/center_search.h -- finds the center of a cyclone as the place about which the
+// tangential wind is greatest.
+//
+// Source    Simplex of a circle's mean tangential wind: Lee and Marks (2000); scatter of its
+// starts:
+//           Bell and Lee (2012). The search of the whole plane is our own.
+// Units     Meters in the plane about the site; m/s.
+// Threads   Pure functions.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "retrieve/cyclone/vortex_profile.h"
+
+namespace stormcellar::retrieve {
+
+// Returns by how much the tangential wind exceeds what a uniform wind of 30 m/s across the beam and
+// the scatter about the fitted wind could show.
+[[nodiscard]] double vortex_excess_mps(const RingFit& fit, double radius_share);
+
+struct CenterGuess {
+    grid::PlanePoint center;
+    double radius_m = 0;
+    double excess_mps = 0;  // of circles of this and the next larger radius
+};
+
+struct CenterGuesses {
+    std::vector<CenterGuess> best;  // of each radius at most one, if its excess is above 0
+    bool has_circles = false;       // false: velocities are too few at every place
+};
+
+// Tries places 6 km apart: all within the sweep's reach, or all within `around_m` of `near`.
+[[nodiscard]] CenterGuesses guess_centers(const PolarVelocity& field, double rotation,
+                                          std::optional<grid::PlanePoint> near, double around_m);
+
+struct FoundCenter {
+    VortexProfile profile;
+    double error_m = 0;     // scatter of the simplex's starts
+    double excess_mps = 0;  // of the strongest ring
+};
+
+// Refines a guess. Moves bins of the field by whole turns to agree with the fitted wind. Returns
+// none if no circles can be fitted.
+[[nodiscard]] std::optional<FoundCenter> refine_center(PolarVelocity& field, double rotation,
+                                                       const CenterGuess& guess);
+
+}  // namespace stormcellar::retrieve
