@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "retrieve/cyclone/nelder_mead.h"
 
@@ -16,6 +18,8 @@ constexpr double grid_step_m = 6000;
 constexpr std::array<double, 7> guess_radii_m{10e3, 14e3, 20e3, 28e3, 40e3, 56e3, 80e3};
 constexpr int guess_samples = 24, guess_waves = 2;
 constexpr double widest_guess_gap_deg = 60;
+constexpr double least_search_radius_m = 5000;
+constexpr int most_rounds = 10;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
 using CirclesAtGuess = std::array<std::optional<RingFit>, guess_radii_m.size()>;
@@ -35,64 +39,94 @@ CirclesAtGuess circles_at(const PolarVelocity& field, double rotation, grid::Pla
     return circles;
 }
 
-// Returns the mean tangential wind of an annulus 4 km wide, times the distance from the radar. The
-// velocities show the product: a wrong center, too near to the radar by 2 %, gives winds that are 2
-// % too strong, so that the wind alone would draw the center toward the radar.
-double annulus_moment(const PolarVelocity& field, double rotation, double radius_m,
-                      grid::PlanePoint center) {
+// The circles whose tangential wind the center maximizes, as parts of the radius of maximum wind.
+// Inside that radius, an asymmetry would move the center.
+constexpr std::array<double, 3> annulus{1, 1.05, 1.1};
+// The radii for which a center is sought, as parts of the radius of maximum wind found so far. A
+// wrong center and a wrong radius can agree with each other, but not with the greatest wind.
+constexpr std::array<double, 4> radius_parts{0.88, 0.94, 1, 1.06};
+constexpr double first_step_m = 2000, last_step_m = 50;  // of the simplex
+
+// Returns the mean tangential wind of circles, times the distance from the radar. The velocities
+// show the product: a center that is too near to the radar by 2 % gives winds that are 2 % too
+// strong, so the wind alone would draw the center toward the radar.
+double moment_of(const PolarVelocity& field, double rotation, double radius_m,
+                 std::span<const double> parts, grid::PlanePoint center) {
     double sum = 0;
-    for (const double offset : {-2000.0, 0.0, 2000.0}) {
+    for (const double part : parts) {
         RingRequest request;
         request.center = center;
-        request.radius_m = radius_m + offset;
-        request.samples = 48;
+        request.radius_m = radius_m * part;
         request.most_waves = 2;
         request.rotation = rotation;
         const auto fit = fit_ring(field, request);
         if (!fit) return nowhere;
         sum += fit->tangential_mps;
     }
-    return sum / 3 * std::hypot(center.x_m, center.y_m);
+    return sum / static_cast<double>(parts.size()) * std::hypot(center.x_m, center.y_m);
 }
 
-struct Climbed {
+PlaneMaximum climb_for(const PolarVelocity& field, double rotation, double radius_m,
+                       std::span<const double> parts, grid::PlanePoint start) {
+    return climb(start, first_step_m, last_step_m, [&](grid::PlanePoint place) {
+        return moment_of(field, rotation, radius_m, parts, place);
+    });
+}
+
+double strongest_moment(const VortexProfile& profile) {
+    return profile.strongest().fit.tangential_mps *
+           std::hypot(profile.center.x_m, profile.center.y_m);
+}
+
+// Returns the profile about the best of the centers that are found for several radii.
+VortexProfile improve(const PolarVelocity& field, double rotation, const VortexProfile& profile) {
+    VortexProfile best;
+    for (const double part : radius_parts) {
+        const double radius = std::max(part * profile.strongest().radius_m, least_search_radius_m);
+        const PlaneMaximum top = climb_for(field, rotation, radius, annulus, profile.center);
+        if (top.value == nowhere) continue;
+        VortexProfile candidate = fit_profile(field, top.place, radius, rotation);
+        if (candidate.rings.empty()) continue;
+        if (best.rings.empty() || strongest_moment(candidate) > strongest_moment(best))
+            best = std::move(candidate);
+    }
+    return best;
+}
+
+struct Scatter {
     grid::PlanePoint mean;
-    double scatter_m = 0;
+    double size_m = 0;
 };
 
-// Climbs from eight places around `center`, for circles of the radius and somewhat smaller and
-// larger ones. Climbs that end well below the best of their radius do not count.
-std::optional<Climbed> climb_from_around(const PolarVelocity& field, double rotation,
-                                         double radius_m, grid::PlanePoint center) {
+// Climbs from eight places around the center. Climbs that end below the best do not count. Then
+// climbs for single circles; how far these end from the mean is the larger part of the scatter.
+Scatter scatter_of(const PolarVelocity& field, double rotation, const VortexProfile& profile) {
+    const double radius = std::max(profile.strongest().radius_m, least_search_radius_m);
+    const grid::PlanePoint center = profile.center;
+    std::array<PlaneMaximum, 8> ends;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ends.size();
+        ends[i] =
+            climb_for(field, rotation, radius, annulus,
+                      {center.x_m + 4000 * std::cos(angle), center.y_m + 4000 * std::sin(angle)});
+    }
+    const double best = std::ranges::max_element(ends, {}, &PlaneMaximum::value)->value;
     std::vector<grid::PlanePoint> tops;
-    for (const double factor : {0.9, 1.0, 1.1}) {
-        const double radius = std::max(radius_m * factor, VortexProfile::least_radius_m + 2000);
-        std::array<PlaneMaximum, 8> ends;
-        for (std::size_t i = 0; i < ends.size(); ++i) {
-            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ends.size();
-            ends[i] =
-                climb({center.x_m + 4000 * std::cos(angle), center.y_m + 4000 * std::sin(angle)},
-                      2000, 50, [&](grid::PlanePoint place) {
-                          return annulus_moment(field, rotation, radius, place);
-                      });
-        }
-        const double best = std::ranges::max_element(ends, {}, &PlaneMaximum::value)->value;
-        for (const PlaneMaximum& end : ends)
-            if (end.value > 0.99 * best) tops.push_back(end.place);
-    }
-    if (tops.empty()) return std::nullopt;
-    Climbed climbed;
-    const auto count = static_cast<double>(tops.size());
+    for (const PlaneMaximum& end : ends)
+        if (end.value > 0.998 * best) tops.push_back(end.place);
+    if (tops.empty()) tops.push_back(center);
+    Scatter scatter;
     for (const grid::PlanePoint& top : tops) {
-        climbed.mean.x_m += top.x_m / count;
-        climbed.mean.y_m += top.y_m / count;
+        scatter.mean.x_m += top.x_m / static_cast<double>(tops.size());
+        scatter.mean.y_m += top.y_m / static_cast<double>(tops.size());
     }
+    for (const double part : annulus)
+        tops.push_back(climb_for(field, rotation, radius, {&part, 1}, scatter.mean).place);
     for (const grid::PlanePoint& top : tops)
-        climbed.scatter_m +=
-            (std::pow(top.x_m - climbed.mean.x_m, 2) + std::pow(top.y_m - climbed.mean.y_m, 2)) /
-            count;
-    climbed.scatter_m = std::sqrt(climbed.scatter_m);
-    return climbed;
+        scatter.size_m +=
+            std::pow(top.x_m - scatter.mean.x_m, 2) + std::pow(top.y_m - scatter.mean.y_m, 2);
+    scatter.size_m = std::sqrt(scatter.size_m / static_cast<double>(tops.size()));
+    return scatter;
 }
 
 }  // namespace
@@ -136,18 +170,18 @@ std::optional<FoundCenter> refine_center(PolarVelocity& field, double rotation,
                                          const CenterGuess& guess) {
     FoundCenter found;
     found.profile = fit_profile(field, guess.center, guess.radius_m, rotation);
-    for (int round = 0; round < 8; ++round) {
-        if (found.profile.rings.empty()) return std::nullopt;
+    for (int round = 0; round < most_rounds && !found.profile.rings.empty(); ++round) {
         field.refold([&](double x, double y) { return found.profile.velocity_at(x, y); });
-        const double radius = found.profile.strongest().radius_m;
-        const auto climbed = climb_from_around(field, rotation, radius, found.profile.center);
-        if (!climbed) return std::nullopt;
-        const double moved = std::hypot(climbed->mean.x_m - found.profile.center.x_m,
-                                        climbed->mean.y_m - found.profile.center.y_m);
-        found.error_m = climbed->scatter_m;
-        found.profile = fit_profile(field, climbed->mean, radius, rotation);
-        if (moved < 200) break;
+        VortexProfile better = improve(field, rotation, found.profile);
+        const double moved = std::hypot(better.center.x_m - found.profile.center.x_m,
+                                        better.center.y_m - found.profile.center.y_m);
+        found.profile = std::move(better);
+        if (moved < 2 * last_step_m) break;
     }
+    if (found.profile.rings.empty()) return std::nullopt;
+    const Scatter scatter = scatter_of(field, rotation, found.profile);
+    found.error_m = scatter.size_m;
+    found.profile = fit_profile(field, scatter.mean, found.profile.strongest().radius_m, rotation);
     if (found.profile.rings.empty()) return std::nullopt;
     const ProfileRing& top = found.profile.strongest();
     const grid::PlanePoint center = found.profile.center;

@@ -53,11 +53,11 @@ VortexProfile fit_profile(const PolarVelocity& field, grid::PlanePoint center,
     profile.center = center;
     RingRequest request;
     request.center = center;
-    request.radius_m = start_radius_m;
+    request.radius_m = VortexProfile::step_m * std::round(start_radius_m / VortexProfile::step_m);
     request.rotation = rotation;
     const auto first = fit_ring(field, request);
     if (!first) return profile;
-    profile.rings.push_back({start_radius_m, *first});
+    profile.rings.push_back({request.radius_m, *first});
     extend(field, request, -VortexProfile::step_m, profile.rings);
     std::ranges::reverse(profile.rings);
     extend(field, request, VortexProfile::step_m, profile.rings);

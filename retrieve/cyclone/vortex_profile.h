@@ -26,9 +26,10 @@ struct VortexProfile {
     [[nodiscard]] double velocity_at(double x_m, double y_m) const;
 };
 
-// Fits circles from `start_radius_m` inward and outward, until the radar, the data or the largest
-// radius ends them. The circle before each gives the expected velocities, so that wrong fold
-// numbers do not matter. `rings` is empty if the first circle cannot be fitted.
+// Fits circles from `start_radius_m`, to the nearest kilometer, inward and outward, until the
+// radar, the data or the largest radius ends them. The circle before each gives the expected
+// velocities, so that wrong fold numbers do not matter. `rings` is empty if the first circle cannot
+// be fitted.
 [[nodiscard]] VortexProfile fit_profile(const PolarVelocity& field, grid::PlanePoint center,
                                         double start_radius_m, double rotation);
 

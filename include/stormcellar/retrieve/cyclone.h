@@ -21,11 +21,12 @@
 //           radar can tell a mean wind across the beam from a tangential wind: it changes the
 //           tangential wind of a circle of radius R by itself times R / distance. Without a known
 //           mean wind it counts as 0 with an error of 5 m/s; a known one has an error of 2 m/s.
-// Accuracy  Hurricanes of 40 to 65 m/s, 15 to 40 km wide, 60 to 140 km away, with a mean wind, an
-//           asymmetry of wave 1 and 1 m/s of noise, folded at 12 to 33 m/s and unfolded by
-//           `anchored`: center within 1 km, maximum tangential wind within 5 %
-//           (tests/retrieve/cyclone_test.cpp). Harvey: 57 m/s for every rung of dealias()
-//           (tests/retrieve/harvey_test.cpp).
+// Accuracy  Hurricanes of 40 to 65 m/s, whose maximum is 15 to 40 km from a center that is 60 to
+//           140 km away, with a mean wind, an asymmetry of wave 1 of up to 20 % and 1 m/s of noise,
+//           folded at 12 to 33 m/s and unfolded by `anchored`: center within 1 km, maximum
+//           tangential wind within 5 % (tests/retrieve/cyclone_test.cpp). Harvey of 2017: 56 m/s,
+//           within 2 m/s for each rung of dealias() but `off`; the center is within 5 km of the
+//           middle of the eye (tests/retrieve/harvey_test.cpp).
 // Limits    The wind is at the height of one beam, not at the surface. Asymmetries of the radial
 //           wind and waves above 2 of the tangential wind are not told apart from the waves that
 //           are fitted. Gradient wind balance does not hold in the layer of friction.
