@@ -38,6 +38,11 @@ Guides guides_of_use() {
 
 Guides guides_of_files() {
     return {
+        {"cyclone",
+         {{"stormcellar cyclone KCRP20170826_044114_V06",
+           "Print a hurricane's center, wind by radius and fall of pressure."},
+          {"stormcellar cyclone KCRP20170826_044114_V06 --near 28.1,-97.0 --mean-wind=-2,2.5",
+           "Start from a known center, and correct for the wind that carries the hurricane."}}},
         {"fetch",
          {{"stormcellar fetch --stations KTLX --from 1999-05-03T23:00:00Z --to "
            "1999-05-03T23:59:00Z -o files",

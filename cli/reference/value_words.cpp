@@ -197,6 +197,8 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--center", "PLACE"},
     {"--at", "PLACE"},
     {"--position", "LAT,LON,HEIGHT"},
+    {"--near", "LAT,LON"},
+    {"--mean-wind", "EAST,NORTH"},
     {"--bounds", "WEST,SOUTH,EAST,NORTH"},
     {"--parallels", "LAT1,LAT2"},
     {"--section", "PLACE;PLACE"},

@@ -173,6 +173,13 @@ Cyclone describe(const Search& search, const CycloneOptions& options, double rot
 // Returns the reason why a vortex that was found is no hurricane whose wind can be told.
 std::optional<NoCyclone> doubt(const Cyclone& cyclone, double excess_mps) {
     const CycloneRing& top = cyclone.maximum();
+    if (!(excess_mps > 0) || top.tangential_mps.value < least_hurricane_mps) {
+        return NoCyclone{
+            NoCycloneReason::no_vortex,
+            fmt::format("no hurricane: the strongest circulation is {:.0f} m/s {:.0f} km from its "
+                        "center, which a uniform wind could also show",
+                        top.tangential_mps.value, top.radius_m / 1000)};
+    }
     const double outer_m = cyclone.rings.back().radius_m;
     if (cyclone.rings.size() - cyclone.strongest <= 3) {
         if (outer_m > 0.8 * cyclone.distance_m) {
@@ -187,12 +194,7 @@ std::optional<NoCyclone> doubt(const Cyclone& cyclone, double excess_mps) {
                                      "velocities end",
                                      outer_m / 1000)};
     }
-    if (excess_mps > 0 && top.tangential_mps.value >= least_hurricane_mps) return std::nullopt;
-    return NoCyclone{
-        NoCycloneReason::no_vortex,
-        fmt::format("no hurricane: the strongest circulation is {:.0f} m/s {:.0f} km from its "
-                    "center, which a uniform wind could also show",
-                    top.tangential_mps.value, top.radius_m / 1000)};
+    return std::nullopt;
 }
 
 tl::expected<Search, NoCyclone> search_center(const PolarVelocity& field,
