@@ -19,6 +19,7 @@ constexpr std::array<double, 7> guess_radii_m{10e3, 14e3, 20e3, 28e3, 40e3, 56e3
 constexpr int guess_samples = 24, guess_waves = 2;
 constexpr double widest_guess_gap_deg = 60;
 constexpr double least_search_radius_m = 5000;
+constexpr double wide_part = 1.4;
 constexpr int most_rounds = 10;
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 
@@ -47,6 +48,11 @@ constexpr std::array<double, 3> annulus{1, 1.05, 1.1};
 constexpr std::array<double, 4> radius_parts{0.88, 0.94, 1, 1.06};
 constexpr double first_step_m = 2000, last_step_m = 50;  // of the simplex
 
+// Returns the number of points for a circle, about 1.5 km apart, so that noise averages out.
+int samples_of(double radius_m) {
+    return std::clamp(static_cast<int>(2 * std::numbers::pi * radius_m / 1500), 48, 180);
+}
+
 // Returns the mean tangential wind of circles, times the distance from the radar. The velocities
 // show the product: a center that is too near to the radar by 2 % gives winds that are 2 % too
 // strong, so the wind alone would draw the center toward the radar.
@@ -57,6 +63,7 @@ double moment_of(const PolarVelocity& field, double rotation, double radius_m,
         RingRequest request;
         request.center = center;
         request.radius_m = radius_m * part;
+        request.samples = samples_of(request.radius_m);
         request.most_waves = 2;
         request.rotation = rotation;
         const auto fit = fit_ring(field, request);
@@ -76,6 +83,19 @@ PlaneMaximum climb_for(const PolarVelocity& field, double rotation, double radiu
 double strongest_moment(const VortexProfile& profile) {
     return profile.strongest().fit.tangential_mps *
            std::hypot(profile.center.x_m, profile.center.y_m);
+}
+
+// Returns the mean excess of the strongest ring and of the ring at 1.4 times its radius, or of the
+// outermost ring. A cyclone is wide, so both must show it.
+double excess_of(const VortexProfile& profile) {
+    const double distance = std::hypot(profile.center.x_m, profile.center.y_m);
+    const ProfileRing& top = profile.strongest();
+    auto outer = std::ranges::lower_bound(profile.rings, wide_part * top.radius_m, {},
+                                          &ProfileRing::radius_m);
+    if (outer == profile.rings.end()) --outer;
+    return (vortex_excess_mps(top.fit, top.radius_m / distance) +
+            vortex_excess_mps(outer->fit, outer->radius_m / distance)) /
+           2;
 }
 
 // Returns the profile about the best of the centers that are found for several radii.
@@ -183,10 +203,7 @@ std::optional<FoundCenter> refine_center(PolarVelocity& field, double rotation,
     found.error_m = scatter.size_m;
     found.profile = fit_profile(field, scatter.mean, found.profile.strongest().radius_m, rotation);
     if (found.profile.rings.empty()) return std::nullopt;
-    const ProfileRing& top = found.profile.strongest();
-    const grid::PlanePoint center = found.profile.center;
-    found.excess_mps =
-        vortex_excess_mps(top.fit, top.radius_m / std::hypot(center.x_m, center.y_m));
+    found.excess_mps = excess_of(found.profile);
     return found;
 }
 

@@ -37,7 +37,7 @@ struct CenterGuesses {
 struct FoundCenter {
     VortexProfile profile;
     double error_m = 0;     // scatter of the simplex's starts
-    double excess_mps = 0;  // of the strongest ring
+    double excess_mps = 0;  // of the strongest ring and one outside it
 };
 
 // Refines a guess. Moves bins of the field by whole turns to agree with the fitted wind. Returns

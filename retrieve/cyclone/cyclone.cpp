@@ -16,7 +16,8 @@ namespace {
 
 constexpr double around_guess_m = 40'000;
 constexpr double same_center_m = 20'000;
-constexpr double least_hurricane_mps = 17;  // a tropical storm
+constexpr double least_hurricane_mps = 17.5;  // a tropical storm
+constexpr double least_significance = 10;     // of the wind, in standard errors of its fit
 constexpr double unknown_across_error_mps = 5, known_across_error_mps = 2;
 constexpr double lowest_sweeps_deg = 0.3;  // sweeps this much above the lowest count as lowest
 
@@ -173,12 +174,21 @@ Cyclone describe(const Search& search, const CycloneOptions& options, double rot
 // Returns the reason why a vortex that was found is no hurricane whose wind can be told.
 std::optional<NoCyclone> doubt(const Cyclone& cyclone, double excess_mps) {
     const CycloneRing& top = cyclone.maximum();
-    if (!(excess_mps > 0) || top.tangential_mps.value < least_hurricane_mps) {
+    const double fit_error = std::sqrt(
+        std::max(0.0, std::pow(top.tangential_mps.error, 2) - std::pow(top.across_error_mps, 2)));
+    const double wind = top.tangential_mps.value;
+    if (wind < least_hurricane_mps || wind < least_significance * fit_error) {
+        return NoCyclone{NoCycloneReason::no_vortex,
+                         fmt::format("no hurricane: the strongest circulation has {:.0f} m/s with "
+                                     "an error of {:.0f} m/s",
+                                     wind, fit_error)};
+    }
+    if (!(excess_mps > 0)) {
         return NoCyclone{
             NoCycloneReason::no_vortex,
-            fmt::format("no hurricane: the strongest circulation is {:.0f} m/s {:.0f} km from its "
-                        "center, which a uniform wind could also show",
-                        top.tangential_mps.value, top.radius_m / 1000)};
+            fmt::format("no hurricane: a uniform wind could also show the strongest circulation, "
+                        "{:.0f} m/s {:.0f} km from its center",
+                        wind, top.radius_m / 1000)};
     }
     const double outer_m = cyclone.rings.back().radius_m;
     if (cyclone.rings.size() - cyclone.strongest <= 3) {

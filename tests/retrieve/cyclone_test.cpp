@@ -244,11 +244,13 @@ TEST(NoCyclone, InOddVolumes) {
         folded.volume.block.emplace();
         folded.volume.block->latitude_deg = 30;
         folded.volume.block->longitude_deg = -90;
-        (void)refusal_of(folded.volume);
+        const Dealiased folds = dealias(folded.volume, Dealiasing::off);
+        EXPECT_FALSE(find_cyclone(folded.volume, folds));
         folded.volume.sweeps[0].moments[0].first_gate_m = -375;
+        EXPECT_FALSE(find_cyclone(folded.volume, folds));
         for (level2::Radial& radial : folded.volume.sweeps[0].radials)
             radial.azimuth_deg = std::numeric_limits<float>::quiet_NaN();
-        (void)refusal_of(folded.volume);
+        EXPECT_FALSE(find_cyclone(folded.volume, folds));
     }
 }
 
