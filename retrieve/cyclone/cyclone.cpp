@@ -119,6 +119,15 @@ std::vector<double> errors_of_center(const Search& search, double rotation) {
     return errors;
 }
 
+// Returns the error of a ring's tangential wind that is due to the width of beam and bins. Where
+// the wind is greatest, neighboring rings are weaker on both sides, and the mean over the width is,
+// too.
+double error_of_width(const VortexProfile& profile, std::size_t ring) {
+    if (ring == 0 || ring + 1 == profile.rings.size()) return 0;
+    const auto wind = [&](std::size_t at) { return profile.rings[at].fit.tangential_mps; };
+    return std::abs(wind(ring) - (wind(ring - 1) + wind(ring + 1)) / 2) / 2;
+}
+
 // Returns the component of a wind to the left of the beam through the center.
 double across_of(HorizontalWind wind, grid::PlanePoint center) {
     return (wind.north_mps * center.x_m - wind.east_mps * center.y_m) /
@@ -158,9 +167,10 @@ Cyclone describe(const Search& search, const CycloneOptions& options, double rot
         CycloneRing& ring = cyclone.rings.emplace_back();
         ring.radius_m = radius;
         ring.across_error_mps = cyclone.across_mps.error * share;
-        ring.tangential_mps = {
-            fit.tangential_mps + rotation * cyclone.across_mps.value * share,
-            std::hypot(fit.tangential_error_mps, by_center[i], ring.across_error_mps)};
+        const double own_error =
+            std::hypot(fit.tangential_error_mps, by_center[i], error_of_width(profile, i));
+        ring.tangential_mps = {fit.tangential_mps + rotation * cyclone.across_mps.value * share,
+                               std::hypot(own_error, ring.across_error_mps)};
         ring.radial_mps = {fit.radial_mps, fit.radial_error_mps};
         ring.wave1_mps = fit.wave1_mps;
         ring.waves = fit.waves;

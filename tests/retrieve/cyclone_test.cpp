@@ -49,6 +49,20 @@ double off_m(const Cyclone& found, const AnalyticHurricane& hurricane) {
                       found.center_plane.y_m - hurricane.center.y_m);
 }
 
+// Expects that the true wind is within two stated errors for most rings, and within four for all.
+void expect_honest_errors(const Cyclone& found, const AnalyticHurricane& hurricane,
+                          const std::string& label) {
+    std::size_t within_two = 0;
+    for (const CycloneRing& ring : found.rings) {
+        const double off =
+            std::abs(ring.tangential_mps.value - hurricane.tangential_mps(ring.radius_m));
+        EXPECT_LE(off, 4 * ring.tangential_mps.error) << label << ", ring " << ring.radius_m;
+        if (off <= 2 * ring.tangential_mps.error) ++within_two;
+    }
+    EXPECT_GE(static_cast<double>(within_two), 0.9 * static_cast<double>(found.rings.size()))
+        << label;
+}
+
 class Hurricanes : public ::testing::TestWithParam<double> {};
 
 // The header promises the center within 1 km and the maximum wind within 5 %.
@@ -74,6 +88,7 @@ TEST_P(Hurricanes, AreFound) {
         EXPECT_NEAR(top.radius_m, hurricane.radius_m, 2000) << label;
         EXPECT_NEAR(top.radial_mps.value, -hurricane.inflow_mps, 1) << label;
         EXPECT_NEAR(top.wave1_mps, hurricane.wave1 * hurricane.maximum_mps, 3) << label;
+        expect_honest_errors(*found, hurricane, label);
         const double azimuth = std::atan2(hurricane.center.x_m, hurricane.center.y_m);
         EXPECT_NEAR(
             found->along_mps.value,

@@ -16,16 +16,17 @@
 //           circle and the circle beside it show gets another fold number. So a fold number that
 //           dealias() got wrong does not matter where most others are right.
 // Errors    Each result has one standard error. The error of the center is the scatter of the
-//           simplex's starts and radii, which is a lower bound. Those of the wind combine the
-//           residuals of the fit, the error of the center and the unknown wind across the beam. No
-//           radar can tell a mean wind across the beam from a tangential wind: it changes the
-//           tangential wind of a circle of radius R by itself times R / distance. Without a known
-//           mean wind it counts as 0 with an error of 5 m/s; a known one has an error of 2 m/s.
+//           simplex's starts and radii, which is a lower bound. The errors of the wind combine the
+//           residuals of the fit, the error of the center, the width of the beam and the unknown
+//           wind across the beam. No radar can tell a mean wind across the beam from a tangential
+//           wind: such a wind changes the tangential wind of a circle of radius R by its own speed
+//           times R / distance. Without a known mean wind, the wind across counts as 0 with an
+//           error of 5 m/s; with one, its error is 2 m/s.
 // Accuracy  Hurricanes of 40 to 65 m/s, whose maximum is 15 to 40 km from a center that is 60 to
 //           140 km away, with a mean wind, an asymmetry of wave 1 of up to 20 % and 1 m/s of noise,
 //           folded at 12 to 33 m/s and unfolded by `anchored`: center within 1 km, maximum
-//           tangential wind within 5 % (tests/retrieve/cyclone_test.cpp). Harvey of 2017: 56 m/s,
-//           within 2 m/s for each rung of dealias() but `off`; the center is within 5 km of the
+//           tangential wind within 5 % (tests/retrieve/cyclone_test.cpp). Harvey of 2017: 56 m/s
+//           for each rung of dealias() but `off`; the center is within 5 km of the
 //           middle of the eye (tests/retrieve/harvey_test.cpp).
 // Limits    The wind is at the height of one beam, not at the surface. Asymmetries of the radial
 //           wind and waves above 2 of the tangential wind are not told apart from the waves that
@@ -114,7 +115,7 @@ struct NoCyclone {
 };
 
 // Returns the hurricane, or the reason why the velocities cannot show one. `folds` are those of
-// dealias() for this volume.
+// dealias() for this volume; with Dealiasing::off, folded velocities can look like a hurricane.
 [[nodiscard]] tl::expected<Cyclone, NoCyclone> find_cyclone(const level2::Volume& volume,
                                                             const Dealiased& folds,
                                                             const CycloneOptions& options = {});
