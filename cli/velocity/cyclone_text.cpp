@@ -15,7 +15,7 @@ using retrieve::CycloneRing;
 using retrieve::Estimate;
 using retrieve::NoCycloneReason;
 
-constexpr double per_km = 1000;
+constexpr double meters_per_km = 1000;
 constexpr int row_step_km = 5;
 
 std::string text_of(Estimate estimate) {
@@ -29,17 +29,17 @@ std::string head(const StationCyclone& found) {
                                    found.time ? format_utc(*found.time) : "unknown time");
     text += fmt::format("  center    {:.3f}, {:.3f} +- {:.1f} km, {:.0f} km from the radar\n",
                         cyclone.center.latitude_deg, cyclone.center.longitude_deg,
-                        cyclone.center_error_m / per_km, cyclone.distance_m / per_km);
-    text +=
-        fmt::format("  height    {:.1f} km above sea level, elevation {:.2f} degrees\n",
-                    (found.antenna_altitude_m + cyclone.height_m) / per_km, cyclone.elevation_deg);
+                        cyclone.center_error_m / meters_per_km, cyclone.distance_m / meters_per_km);
+    text += fmt::format("  height    {:.1f} km above sea level, elevation {:.2f} degrees\n",
+                        (found.antenna_altitude_m + cyclone.height_m) / meters_per_km,
+                        cyclone.elevation_deg);
     text += fmt::format("  maximum   {} m/s, {:.0f} km from the center\n",
-                        text_of(top.tangential_mps), top.radius_m / per_km);
+                        text_of(top.tangential_mps), top.radius_m / meters_per_km);
     text += fmt::format("  mean wind {} m/s along the beam, {} m/s to its left\n",
                         text_of(cyclone.along_mps), text_of(cyclone.across_mps));
-    text +=
-        fmt::format("  pressure  {} hPa lower than {:.0f} km from the center\n",
-                    text_of(cyclone.pressure_deficit_hpa), cyclone.rings.back().radius_m / per_km);
+    text += fmt::format("  pressure  {} hPa lower than {:.0f} km from the center\n",
+                        text_of(cyclone.pressure_deficit_hpa),
+                        cyclone.rings.back().radius_m / meters_per_km);
     if (cyclone.refolded_share > 0) {
         text += fmt::format("  refolded  {:.2f} % of the velocities, to fit the wind\n",
                             100 * cyclone.refolded_share);
@@ -95,7 +95,7 @@ std::string cyclone_table(const StationCyclone& found) {
                         "deg");
     for (const CycloneRing& ring : cyclone.rings) {
         const bool is_maximum = &ring == &cyclone.maximum();
-        const auto radius_km = std::lround(ring.radius_m / per_km);
+        const auto radius_km = std::lround(ring.radius_m / meters_per_km);
         if (!is_maximum && radius_km % row_step_km != 0) continue;
         text +=
             fmt::format("{:>6} {:>14} {:>14} {:>6.1f} {:>8.0f} {:>4.0f}{}\n", radius_km,
