@@ -42,7 +42,7 @@ CirclesAtGuess circles_at(const PolarVelocity& field, double rotation, grid::Pla
 
 // The circles whose tangential wind the center maximizes, as parts of the radius of maximum wind.
 // Inside that radius, an asymmetry would move the center.
-constexpr std::array<double, 3> annulus{1, 1.05, 1.1};
+constexpr std::array<double, 5> annulus{1, 1.015, 1.03, 1.045, 1.06};
 // The radii for which a center is sought, as parts of the radius of maximum wind found so far. A
 // wrong center and a wrong radius can agree with each other, but not with the greatest wind.
 constexpr std::array<double, 4> radius_parts{0.88, 0.94, 1, 1.06};

@@ -1,9 +1,8 @@
 // retrieve/cyclone/center_search.h -- finds the center of a cyclone as the place about which the
 // tangential wind is greatest.
 //
-// Source    Simplex of a circle's mean tangential wind: Lee and Marks (2000); scatter of its
-// starts:
-//           Bell and Lee (2012). The search of the whole plane is our own.
+// Source    Lee and Marks (2000), simplex of a circle's mean tangential wind; Bell and Lee (2012),
+//           scatter of its starts. The search of the whole plane is our own.
 // Units     Meters in the plane about the site; m/s.
 // Threads   Pure functions.
 #pragma once
