@@ -127,6 +127,33 @@ void count_jumps(const SheetState& state, Dealiased& dealiased) {
     dealiased.jumps += state.regions.jumps;
 }
 
+// Marks small nodes that contradict the wind: their neighbors may be speckle.
+void mark_islands(const FoldedWind& wind, SheetState& state) {
+    constexpr int largest_island = 8;  // gates
+    const VelocitySheet& sheet = state.sheet;
+    const double per_turn = std::cos(sheet.elevation_deg * degree) / sheet.turn_mps;
+    std::vector<int> gates(at(state.graph.nodes));
+    std::vector<double> from_wind(gates.size());
+    for (const Run& run : state.regions.runs) {
+        const auto node = at(state.graph.node_of_region[at(run.region)]);
+        gates[node] += run.end - run.begin;
+        if (gates[node] > largest_island) continue;
+        const double azimuth = static_cast<double>(sheet.azimuths_deg[at(run.radial)]) * degree;
+        for (int gate = run.begin; gate < run.end; ++gate) {
+            const FoldedWind::Layer& layer =
+                wind.at(static_cast<double>(state.heights_m[at(gate)]));
+            if (layer.agreement < least_agreement) continue;
+            const double there =
+                per_turn * (layer.u_mps * std::sin(azimuth) + layer.v_mps * std::cos(azimuth));
+            from_wind[node] += std::abs(static_cast<double>(sheet.row(run.radial)[gate]) +
+                                        state.fold_of(run.region) - there);
+        }
+    }
+    for (std::size_t node = 0; node < gates.size(); ++node)
+        if (gates[node] <= largest_island && from_wind[node] > 0.5 * gates[node])
+            state.guessed[node] = 1;
+}
+
 // Marks the gates whose fold number is uncertain.
 void mark_ambiguous(SheetState& state) {
     state.ambiguous = rough_gates(state.sheet, state.gate_folds);
@@ -189,8 +216,10 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
         if (rung == Dealiasing::region) solve_alone(state);
     }
     if (rung == Dealiasing::anchored) solve_anchored(states, wind);
-    for (SheetState& state : states)
+    for (SheetState& state : states) {
+        if (rung == Dealiasing::anchored) mark_islands(wind, state);
         if (rung != Dealiasing::profile) mark_ambiguous(state);
+    }
     std::map<std::pair<std::size_t, std::size_t>, SweepFolds*> by_moment;
     for (SweepFolds& folds : dealiased.sweeps)
         by_moment[{folds.sweep, folds.moment}] = &folds;
