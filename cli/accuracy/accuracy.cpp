@@ -16,6 +16,7 @@
 #include "cli/accuracy/mosaic_accuracy.h"
 #include "cli/accuracy/site_pairs_accuracy.h"
 #include "cli/accuracy/truth_errors.h"
+#include "cli/accuracy/velocity_accuracy.h"
 #include "cli/grid/grid_notes.h"
 #include "cli/grid/grid_request.h"
 #include "cli/grid/volume_source.h"
@@ -41,6 +42,7 @@ struct AccuracyOptions {
     bool held_out = false;
     bool compare_sites = false;
     bool picture = false;
+    bool velocity = false;
 };
 
 // The volume of a file, or the first volume of a simulated scene.
@@ -110,6 +112,12 @@ std::string with_capital(std::string text) {
     return text;
 }
 
+Status write_svg(const accuracy::Plot& plot, const std::string& file) {
+    const auto svg = accuracy::draw_plot(plot);
+    if (!svg) return pass_on(svg);
+    return write_file_atomically(real_file_system(), file, std::as_bytes(std::span(*svg)));
+}
+
 Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueUnit unit,
                   const std::string& subject, const std::string& file) {
     const bool of_picture = std::any_of(
@@ -130,10 +138,7 @@ Status write_plot(const std::vector<accuracy::LadderRow>& rows, accuracy::ValueU
         plot.points.push_back(
             {row.name, row.step, row.kept_time_s.value_or(row.time_s), error, row.pareto});
     }
-    const auto svg = accuracy::draw_plot(plot);
-    if (!svg) return pass_on(svg);
-    const auto bytes = std::as_bytes(std::span(*svg));
-    return write_file_atomically(real_file_system(), file, bytes);
+    return write_svg(plot, file);
 }
 
 // Explanations of the headings of the tables, printed below each.
@@ -249,6 +254,12 @@ Status check_options(AccuracyOptions& options) {
                     "--picture takes one FILE or a scene, and cannot be used with --held-out or "
                     "--compare-sites");
     }
+    if (options.velocity &&
+        (options.picture || options.compare_sites || options.held_out || files > 1)) {
+        return fail(ErrorCode::bad_argument,
+                    "--velocity takes one FILE or a scene, and cannot be used with --picture, "
+                    "--held-out or --compare-sites");
+    }
     if (options.compare_sites) return check_site_options(options);
     if (options.scene.empty() == (files == 0)) {
         return fail(ErrorCode::bad_argument, "name one or more FILEs, or a scene with --scene");
@@ -357,6 +368,33 @@ int run_comparison(const AccuracyOptions& options, const GridRequest& request) {
     return run_site_pairs(options.grid, request, *effects, options.markdown);
 }
 
+int run_velocity(const AccuracyOptions& options, GridRequest request) {
+    request.moment = level2::Moment::vel;
+    const auto subject = load_subject(options, request);
+    if (!subject) return report_error(subject.error());
+    std::optional<Progress> progress(std::in_place, "measuring", 0, !options.grid.json);
+    const auto ladder = measure_dealiasing(
+        subject->source.volume, subject->scene ? &*subject->scene : nullptr, options.rounds,
+        [&](std::size_t done, std::size_t total) { progress->show(done, total); });
+    progress.reset();
+    if (!ladder) {
+        const Error& error = ladder.error();
+        return report_error({error.code, fmt::format("{}: {}", subject->name, error.message)});
+    }
+    if (!options.plot.empty()) {
+        const auto title = std::filesystem::path(subject->name).filename().string();
+        if (auto drawn = write_svg(fold_plot(*ladder, title), options.plot); !drawn)
+            return report_error(drawn.error());
+    }
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    if (options.grid.json) {
+        fmt::print("{}\n", fold_ladder_json(subject->name, *ladder).dump(1, ' ', true, replace));
+    } else {
+        fmt::print("{}", format_fold_ladder(subject->name, *ladder, options.markdown));
+    }
+    return exit_done;
+}
+
 int run_accuracy(AccuracyOptions options) {
     if (auto sound = check_options(options); !sound) return report_error(sound.error());
     std::shared_ptr<InputFiles> inputs;
@@ -368,6 +406,7 @@ int run_accuracy(AccuracyOptions options) {
     auto request = parse_request(options.grid);
     if (!request) return report_error(request.error());
     request->inputs = std::move(inputs);
+    if (options.velocity) return run_velocity(options, *request);
     if (options.held_out) return run_held_out(options, *request);
     if (options.compare_sites) return run_comparison(options, *request);
     if (options.grid.files.size() > 1) return run_files(options, *request);
@@ -410,6 +449,9 @@ Run set_up_accuracy(CLI::App& command) {
     command.add_flag("--picture", options->picture,
                      "Measure the picture of one FILE or a scene instead of its grid: slices, "
                      "integration, rays and light");
+    command.add_flag("--velocity", options->velocity,
+                     "Measure how the velocity of one FILE or a scene is dealiased: time and wrong "
+                     "gates of each rung, after folding it again at lower Nyquist velocities");
     command.add_option(
         "--scene", options->scene,
         "A simulated scene (TOML) to measure instead of FILEs, also against its own truth");

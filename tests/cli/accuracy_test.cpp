@@ -33,6 +33,8 @@ TEST(Accuracy, BadUsageIsNamed) {
     };
     expect_refused({"--markdown", "--json"}, "cannot be used together");
     expect_refused({"--picture", "--held-out"}, "--picture takes one FILE");
+    expect_refused({"--velocity", "--picture"}, "--velocity takes one FILE");
+    expect_refused({"b", "--velocity"}, "--velocity takes one FILE");
     expect_refused({"--plot", "d.png"}, "must end in .svg");
     expect_refused({"--plot", ""}, "--plot: must not be empty");
     expect_refused({"--fields", "age"}, "--fields");
@@ -178,6 +180,97 @@ peak_dbz = 50
         EXPECT_GT(row["count"].get<int>(), 50);
         EXPECT_LT(row["rms"].get<double>(), 12) << row["chain"];
     }
+}
+
+// The rungs from `profile` on must each make fewer errors than the rung below, down to the lowest
+// Nyquist velocity; at the real one, dealiasing must remove jumps.
+TEST(Accuracy, PrintsALadderOfDealiasing) {
+    STORMCELLAR_NEED_DATA();
+    const testing::TemporaryDirectory directory;
+    const std::string plot = directory / "plot.svg";
+    const auto json = json_of(run({"accuracy", "--velocity", volume("KTLX19990503_235621.gz"),
+                                   "--rounds", "1", "--json", "--plot", plot}));
+    EXPECT_NE(json["truth"].get<std::string>().find("favors anchored"), std::string::npos);
+    std::map<std::string, nlohmann::json> real, at_12;
+    for (const auto& row : json["rows"]) {
+        EXPECT_GE(row["time_s"].get<double>(), 0);
+        EXPECT_GT(row["gates"].get<int>(), 100'000);
+        if (row["nyquist_mps"] == 12) at_12[row["name"]] = row;
+        if (row["nyquist_mps"].get<double>() > 20) real[row["name"]] = row;
+    }
+    EXPECT_EQ(json["rows"].size(), 5U * 4);
+    ASSERT_EQ(at_12.size(), 4U);
+    EXPECT_GT(at_12["off"]["wrong"], 0.3);
+    EXPECT_LT(at_12["profile"]["wrong"], at_12["off"]["wrong"]);
+    EXPECT_LT(at_12["region"]["wrong"], at_12["profile"]["wrong"]);
+    EXPECT_LT(at_12["anchored"]["wrong"], at_12["region"]["wrong"]);
+    EXPECT_GT(at_12["anchored"]["ambiguous"], 0);
+    EXPECT_LE(at_12["anchored"]["wrong_unmarked"], at_12["anchored"]["wrong"]);
+    EXPECT_TRUE(at_12["anchored"]["pareto"].get<bool>());
+    EXPECT_TRUE(at_12["off"]["jumps"].is_null());
+    ASSERT_EQ(real.size(), 4U);
+    EXPECT_TRUE(real["anchored"]["wrong"].is_null()) << "it is the truth";
+    EXPECT_GT(real["off"]["jumps"], 10'000);
+    EXPECT_LT(real["anchored"]["jumps"], 1'000);
+    const std::string svg = testing::file_text(plot);
+    EXPECT_NE(svg.find("Folded at 8.5 m/s, anchored gets "), std::string::npos) << svg;
+}
+
+TEST(Accuracy, ALadderOfDealiasingNeedsVelocities) {
+    STORMCELLAR_NEED_DATA();
+    const std::string tdwr = volume("Level2_TSTL_20220213_2357.ar2v");
+    const ProgramResult ran = run({"accuracy", "--velocity", tdwr});
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.err.find(tdwr + ": the velocities have no Nyquist velocity"), std::string::npos)
+        << ran.err;
+}
+
+// Scenes know the true fold numbers, so they score the real Nyquist velocity, too.
+TEST(Accuracy, DealiasesASceneOfKnownWind) {
+    const testing::TemporaryDirectory directory;
+    const std::string scene = directory / "scene.toml";
+    std::ofstream(scene) << R"(
+[radar]
+station = "KTLX"
+[volumes]
+count = 1
+interval_s = 500
+start = "2024-06-01T22:00:00Z"
+[[cut]]
+elevation_deg = 0.5
+waveform = "doppler"
+azimuth_rate_deg_s = 20
+nyquist_mps = 18
+[[wind.level]]
+velocity_mps = [25, 20]
+[instrument]
+velocity_noise_mps = 1
+velocity_folding = "on"
+[[storm]]
+position_km = [20, 20]
+core_km = 4
+radii_km = [90, 90]
+top_km = 12
+peak_dbz = 50
+)";
+    const ProgramResult ran =
+        run({"accuracy", "--velocity", "--scene", scene, "--rounds", "1", "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto json = json_of(ran);
+    EXPECT_EQ(json["truth"], "that of the simulated scene");
+    ASSERT_EQ(json["rows"].size(), 4U * 4) << "18, 16, 12 and 8.5 m/s";
+    for (const auto& row : json["rows"]) {
+        EXPECT_GT(row["known_gates"], 1'000);
+        if (row["name"] == "off") {
+            EXPECT_GT(row["wrong"], 0.05) << row;
+        } else if (row["name"] == "anchored") {
+            EXPECT_LT(row["wrong"], 0.001) << row;
+        }
+    }
+    const ProgramResult table =
+        run({"accuracy", "--velocity", "--scene", scene, "--rounds", "1", "--markdown"});
+    EXPECT_NE(table.out.find("simulated scene."), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("| 8.5 | anchored | "), std::string::npos) << table.out;
 }
 
 class Effects : public ::testing::Test {
