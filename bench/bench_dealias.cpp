@@ -31,6 +31,7 @@
 
 #include "bench/request.h"
 #include "bench/table.h"
+#include "retrieve/judge/refold.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/retrieve/dealias.h"
@@ -41,20 +42,16 @@ namespace {
 namespace fs = std::filesystem;
 using retrieve::Dealiased;
 using retrieve::Dealiasing;
+using retrieve::KnownVolume;
 
 constexpr std::int8_t unknown_fold = -128;
-
-struct Case {
-    level2::Volume volume;
-    std::vector<std::vector<std::int8_t>> truth;  // of each sweep; empty for Level II files
-};
 
 class CaseReader {
   public:
     explicit CaseReader(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
-    Case read() {
-        Case made;
+    KnownVolume read() {
+        KnownVolume made;
         const auto sweeps = take<std::int32_t>(1).front();
         for (std::int32_t i = 0; i < sweeps; ++i)
             read_sweep(made);
@@ -70,7 +67,7 @@ class CaseReader {
         at_ += count * sizeof(Number);
         return numbers;
     }
-    void read_sweep(Case& made) {
+    void read_sweep(KnownVolume& made) {
         constexpr float scale = 100, offset = 20'000;
         const auto shape = take<std::int32_t>(4);
         const auto radials = static_cast<std::size_t>(shape[0]);
@@ -97,14 +94,18 @@ class CaseReader {
             const float code = std::isnan(velocity) ? 0 : std::round(velocity * scale + offset);
             moment.codes16.push_back(static_cast<std::uint16_t>(code));
         }
-        made.truth.push_back(take<std::int8_t>(radials * gates));
+        retrieve::SweepFolds& folds = made.folds.emplace_back();
+        folds.sweep = made.volume.sweeps.size() - 1;
+        folds.folds = take<std::int8_t>(radials * gates);
+        for (const std::int8_t fold : folds.folds)
+            folds.ambiguous.push_back(fold == unknown_fold ? 1 : 0);
     }
 
     std::vector<std::byte> bytes_;
     std::size_t at_ = 0;
 };
 
-Case load(const fs::path& file, bool is_case) {
+KnownVolume load(const fs::path& file, bool is_case) {
     if (is_case) {
         auto bytes = read_file(file);
         if (!bytes) throw std::runtime_error(bytes.error().message);
@@ -115,55 +116,13 @@ Case load(const fs::path& file, bool is_case) {
     return {std::move(decoded->volume), {}};
 }
 
-// Counts the pairs of adjacent gates in a sweep that differ by more than the Nyquist velocity.
-std::int64_t jumps_in(const level2::Sweep& sweep, const retrieve::SweepFolds& folds) {
-    const level2::SweepMoment& moment = sweep.moments[folds.moment];
-    const std::size_t radials = sweep.radials.size();
-    const auto velocity = [&](std::size_t radial, std::int32_t gate) {
-        if (moment.status(radial, gate) != level2::GateStatus::valid)
-            return std::numeric_limits<float>::quiet_NaN();
-        const std::size_t at =
-            radial * static_cast<std::size_t>(moment.gate_stride) + static_cast<std::size_t>(gate);
-        return moment.value_of(moment.code(radial, gate)) +
-               2 * sweep.radials[radial].nyquist_mps * static_cast<float>(folds.folds[at]);
-    };
-    std::int64_t jumps = 0;
-    for (std::size_t radial = 0; radial < radials; ++radial) {
-        const float nyquist_mps = sweep.radials[radial].nyquist_mps;
-        if (!(nyquist_mps > 0)) continue;
-        for (std::int32_t gate = 0; gate < moment.gate_stride; ++gate) {
-            const float here = velocity(radial, gate);
-            jumps += std::abs(here - velocity(radial, gate + 1)) > nyquist_mps ? 1 : 0;
-            jumps += std::abs(here - velocity((radial + 1) % radials, gate)) > nyquist_mps ? 1 : 0;
-        }
-    }
-    return jumps;
-}
-
-struct Score {
-    std::int64_t right = 0, wrong = 0, marked_right = 0, marked_wrong = 0;
-};
-Score score(const Case& of, const Dealiased& found) {
-    Score score;
-    for (const retrieve::SweepFolds& folds : found.sweeps) {
-        const std::vector<std::int8_t>& truth = of.truth[folds.sweep];
-        for (std::size_t gate = 0; gate < truth.size(); ++gate) {
-            if (truth[gate] == unknown_fold) continue;
-            const bool is_right = truth[gate] == folds.folds[gate];
-            ++(is_right ? score.right : score.wrong);
-            if (folds.ambiguous[gate] != 0) ++(is_right ? score.marked_right : score.marked_wrong);
-        }
-    }
-    return score;
-}
-
 double percent(std::int64_t part, std::int64_t whole) {
     return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 void measure(const fs::path& file, const Request& request, Table& table) {
     const bool is_case = request.has("--case");
-    const Case of = load(file, is_case);
+    const KnownVolume of = load(file, is_case);
     for (const Dealiasing rung : {Dealiasing::region, Dealiasing::anchored}) {
         Dealiased found;
         double least_s = std::numeric_limits<double>::infinity();
@@ -172,9 +131,7 @@ void measure(const fs::path& file, const Request& request, Table& table) {
             found = retrieve::dealias(of.volume, rung);
             least_s = std::min(least_s, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         }
-        std::int64_t jumps = 0;
-        for (const retrieve::SweepFolds& folds : found.sweeps)
-            jumps += jumps_in(of.volume.sweeps[folds.sweep], folds);
+        const std::int64_t jumps = retrieve::count_jumps(of.volume, found);
         const auto count = [](std::int64_t number) { return Cell(static_cast<double>(number), 0); };
         Row row = {{"file", file.filename().string()},
                    {"rung", retrieve::dealiasing_name(rung)},
@@ -184,10 +141,13 @@ void measure(const fs::path& file, const Request& request, Table& table) {
                    {"jumps", count(jumps)},
                    {"seconds", Cell(least_s, 3)}};
         if (is_case) {
-            const Score gates = score(of, found);
-            row.emplace_back("wrong_pct", Cell(percent(gates.wrong, gates.wrong + gates.right), 2));
-            row.emplace_back("marked_wrong_pct", Cell(percent(gates.marked_wrong, gates.wrong), 0));
-            row.emplace_back("marked_right_pct", Cell(percent(gates.marked_right, gates.right), 2));
+            const retrieve::FoldScore score = retrieve::score_folds(of, found);
+            const std::int64_t marked_wrong = score.wrong - score.wrong_unmarked;
+            const std::int64_t marked = score.known - score.known_unmarked;
+            row.emplace_back("wrong_pct", Cell(100 * score.wrong_share(), 2));
+            row.emplace_back("marked_wrong_pct", Cell(percent(marked_wrong, score.wrong), 0));
+            row.emplace_back("marked_right_pct",
+                             Cell(percent(marked - marked_wrong, score.known - score.wrong), 2));
         }
         table.add(std::move(row));
     }
