@@ -111,7 +111,8 @@ FoldCells cells_of(const FoldRow& row, bool markdown) {
             markdown ? accuracy::format_number(row.time_s) : accuracy::format_seconds(row.time_s),
             of_truth(percent(row.score.wrong_share())),
             percent(row.score.ambiguous_share()),
-            of_truth(percent(row.score.wrong_unmarked_share())),
+            row.score.known_unmarked > 0 ? of_truth(percent(row.score.wrong_unmarked_share()))
+                                         : no_figure,
             row.jumps ? std::to_string(*row.jumps) : no_figure,
             of_truth(row.pareto ? "yes" : "no")};
 }
@@ -206,7 +207,7 @@ nlohmann::ordered_json fold_ladder_json(const std::string& subject, const FoldLa
         if (row.jumps) item["jumps"] = *row.jumps;
         if (!row.has_truth) continue;
         item["wrong"] = row.score.wrong_share();
-        item["wrong_unmarked"] = row.score.wrong_unmarked_share();
+        if (row.score.known_unmarked > 0) item["wrong_unmarked"] = row.score.wrong_unmarked_share();
         item["pareto"] = row.pareto;
     }
     return document;

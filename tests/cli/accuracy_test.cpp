@@ -266,6 +266,8 @@ peak_dbz = 50
         } else if (row["name"] == "anchored") {
             EXPECT_LT(row["wrong"], 0.001) << row;
         }
+        EXPECT_EQ(row["wrong_unmarked"].is_null(), row["ambiguous"] == 1)
+            << "without unmarked gates there is no share of them: " << row;
     }
     const ProgramResult table =
         run({"accuracy", "--velocity", "--scene", scene, "--rounds", "1", "--markdown"});
