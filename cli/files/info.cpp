@@ -1,5 +1,6 @@
 // stormcellar info FILE... [--json] [--to OUT.nc]: decodes a Level II file and describes it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -20,7 +21,7 @@
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/level2/chunk_directory.h"
 #include "stormcellar/level2/describe.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -203,7 +204,8 @@ Status write_chosen(const InfoOptions& options, const InputFile& file, level2::D
     const auto chosen = chosen_volume(options, file, volumes.size());
     if (!chosen) return pass_on(chosen);
     if (*rung != retrieve::Dealiasing::off) {
-        const auto added = retrieve::add_dealiased_velocity(volumes[*chosen], *rung);
+        const auto added = retrieve::add_derived_moments(
+            volumes[*chosen], std::array{level2::Moment::veld}, retrieve::DerivedOptions{*rung});
         if (!added) return fail(added.error().code, "{}: {}", file.label, added.error().message);
     }
     auto output = OutputFile::open(options.to);

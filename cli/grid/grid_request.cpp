@@ -181,21 +181,35 @@ Status choose_dealiasing(const GridOptions& options, GridRequest& request,
     if (options.dealias.empty()) return {};
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "--dealias {}", rung.error().message);
-    request.dealiasing = *rung;
+    const auto derived = std::ranges::find_if(
+        moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    const bool has_derived = derived != moments.end();
+    if (*rung == retrieve::Dealiasing::off) {
+        if (!has_derived || request.any_moment) return {};
+        return fail(ErrorCode::bad_argument,
+                    "--dealias off does not go with --moment {}, which is dealiased",
+                    level2::moment_name(*derived));
+    }
+    request.derived.dealiasing = *rung;
     const auto has = [&](level2::Moment moment) {
         return std::ranges::find(moments, moment) != moments.end();
     };
-    if (*rung == retrieve::Dealiasing::off) {
-        if (!has(level2::Moment::veld) || request.any_moment) return {};
-        return fail(ErrorCode::bad_argument,
-                    "--dealias off does not go with --moment VELD, the dealiased velocity");
-    }
-    if (!has(level2::Moment::vel) && !has(level2::Moment::veld))
+    if (!has(level2::Moment::vel) && !has_derived)
         return fail(ErrorCode::bad_argument, "--dealias needs --moment VEL");
     if (!has(level2::Moment::veld))
         std::ranges::replace(moments, level2::Moment::vel, level2::Moment::veld);
     std::ranges::sort(moments);
     return {};
+}
+
+Status choose_motion(const GridOptions& options, GridRequest& request,
+                     const std::vector<level2::Moment>& moments) {
+    if (options.storm_motion.empty()) return {};
+    const auto motion = retrieve::motion_choice_from(options.storm_motion);
+    if (!motion) return fail(ErrorCode::bad_argument, "--storm-motion {}", motion.error().message);
+    request.derived.motion = *motion;
+    if (std::ranges::find(moments, level2::Moment::srv) != moments.end()) return {};
+    return fail(ErrorCode::bad_argument, "--storm-motion needs --moment SRV");
 }
 
 // Reads one moment. Where several are allowed, also reads a list of moments or "all".
@@ -223,6 +237,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
         moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     }
     if (Status chosen = choose_dealiasing(options, request, moments); !chosen) return chosen;
+    if (Status chosen = choose_motion(options, request, moments); !chosen) return chosen;
     request.moment = moments.front();
     request.more_moments.assign(moments.begin() + 1, moments.end());
     return {};
@@ -462,6 +477,10 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                    fmt::format("How to dealias the velocity (VELD instead of VEL): {}",
                                retrieve::dealiasing_names()))
         ->default_str("off");
+    app.add_option("--storm-motion", options.storm_motion,
+                   fmt::format("The motion to which the storm-relative velocity, SRV, refers: {}",
+                               retrieve::motion_choices()))
+        ->default_str(std::string(retrieve::automatic_motion));
     app.add_option("--threads", options.threads,
                    options.threads == 0
                        ? std::string{"Number of threads. Default: all processors"}

@@ -16,7 +16,7 @@
 #include "stormcellar/grid/cell_details.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/volume.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::cli {
 
@@ -33,6 +33,7 @@ struct GridOptions {
     std::string levels_km;
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string dealias;         // empty: not typed
+    std::string storm_motion;    // empty: not typed
     bool takes_moments = false;  // --moment may name several moments, or "all"
     std::string time, fields;
     SiteOptions site;
@@ -67,8 +68,7 @@ struct GridRequest {
     level2::Moment moment = level2::Moment::ref;
     std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
                                                // of moments
-    // How velocities are dealiased if VELD is one of the moments.
-    retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;
+    retrieve::DerivedOptions derived;          // for moments that are derived
     bool any_moment = false;            // --moment all: leave out moments that no volume holds
     std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time
     grid::DetailSet details;            // for one file

@@ -6,16 +6,22 @@
 #include <utility>
 
 #include "base/steady_time.h"
+#include "level2/decode/volume_checks.h"
 #include "stormcellar/level2/chunk_directory.h"
 
 namespace stormcellar::cli {
 namespace {
 
-// Adds the dealiased velocity. If any moment will do, a volume need not have velocities.
-Status add_derived(const GridRequest& request, level2::Volume& volume) {
-    const auto dealiased = retrieve::add_dealiased_velocity(volume, request.dealiasing);
-    if (dealiased || request.any_moment) return {};
-    return pass_on(dealiased);
+// Adds the derived moments. If any moment will do, a volume need not have velocities.
+Result<std::vector<std::string>> add_derived(const GridRequest& request, level2::Volume& volume) {
+    const auto moments = request.moments();
+    auto derived = retrieve::add_derived_moments(volume, moments, request.derived);
+    if (derived) return std::move(derived->notes);
+    if (request.any_moment) return std::vector<std::string>{};
+    const bool lacks_motion = std::ranges::find(moments, level2::Moment::srv) != moments.end() &&
+                              level2::holds(volume, level2::Moment::vel);
+    return fail(derived.error().code, "{}{}", derived.error().message,
+                lacks_motion ? "; give the motion, as in --storm-motion 240/15" : "");
 }
 
 // Returns what to decode for a request. The request must outlive the result.
@@ -26,7 +32,9 @@ grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cu
         .place = [&request](level2::Volume& volume) { return apply_site(request.site, volume); },
         .how_to_place = how_to_place,
         .threads = request.threads};
-    if (std::ranges::find(wish.moments, level2::Moment::veld) != wish.moments.end()) {
+    if (std::ranges::any_of(wish.moments, [](level2::Moment moment) {
+            return level2::facts_of(moment).is_derived;
+        })) {
         wish.choose_cuts = {};  // all cuts help to dealias one
         wish.derive = [&request](level2::Volume& volume) { return add_derived(request, volume); };
     }

@@ -156,6 +156,8 @@ Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
                     "it");
     }
     if (!options.grid.files.empty()) return grid_of_files(options, scene);
+    if (Status fits = check_stored_motion(options.scene, scene.product); !fits)
+        return pass_on(fits);
     return is_of_sweep ? stored_sweep(options, scene) : stored_grid(options, scene.moment);
 }
 
@@ -168,12 +170,15 @@ Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
             return fail(ErrorCode::bad_argument,
                         "panels of sweeps are drawn of a Level II file; name it");
         }
+        const Status fits = check_stored_motion(options.scene, panels.front().scene.product);
+        if (!fits) return pass_on(fits);
         const auto store = open_store(options);
         if (!store) return pass_on(store);
         const auto until = until_of(options);
         if (!until) return pass_on(until);
         return stored_panels(*store, options.domain, panels, *until);
     }
+    take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
     auto grids = gridded_panels(options.grid, panels);

@@ -62,6 +62,8 @@ void take_moment(const render::SceneOptions& scene, GridOptions& grid) {
     grid.moment = scene.moment;
     const bool is_off = scene.dealias == retrieve::dealiasing_name(retrieve::Dealiasing::off);
     grid.dealias = is_off ? "" : scene.dealias;
+    const bool is_automatic = scene.storm_motion == retrieve::automatic_motion;
+    grid.storm_motion = is_automatic ? "" : scene.storm_motion;
 }
 
 Result<PictureGrid> PictureGrid::make(GridOptions options) {

@@ -26,7 +26,7 @@ void add_picture_grid_options(CLI::App& app, GridOptions& options);
 // Returns true if one of these options was typed. They make no sense for a grid of the cache.
 [[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
 
-// Gives the options for the grid the moment of a scene, and how it is dealiased.
+// Gives the options for the grid the moment of a scene, how it is dealiased, and its storm motion.
 void take_moment(const render::SceneOptions& scene, GridOptions& grid);
 
 class PictureGrid {

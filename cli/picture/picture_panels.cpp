@@ -16,14 +16,23 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
     return {};
 }
 
+// Leaves out options of derived moments that these moments do not use.
+void keep_used(GridOptions& options, const std::vector<level2::Moment>& moments) {
+    const bool has_derived = std::ranges::any_of(
+        moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    if (!has_derived) options.dealias.clear();
+    const bool has_srv = std::ranges::find(moments, level2::Moment::srv) != moments.end();
+    if (!has_srv) options.storm_motion.clear();
+}
+
 // Returns the sweep of each moment, on the plane of the first sweep.
-Result<std::vector<PictureGrid>> swept_panels(GridOptions options,
+Result<std::vector<PictureGrid>> swept_panels(const GridOptions& all,
                                               const std::vector<PanelScene>& panels) {
     std::vector<PictureGrid> sweeps;
-    const std::string dealias = options.dealias;
     for (const PanelScene& panel : panels) {
+        GridOptions options = all;
         options.moment = level2::moment_name(panel.moment);
-        options.dealias = panel.moment == level2::Moment::veld ? dealias : "";
+        keep_used(options, {panel.moment});
         auto volume = read_sweeps(options, &panel.scene);
         if (!volume) return pass_on(volume);
         const grid::GridSpec* const plane =
@@ -85,10 +94,14 @@ Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
 Result<std::vector<PictureGrid>> gridded_panels(GridOptions options,
                                                 const std::vector<PanelScene>& panels) {
     if (render::facts_of(panels.front().scene.product).is_of_sweep)
-        return swept_panels(std::move(options), panels);
+        return swept_panels(options, panels);
     std::vector<std::string_view> names;
-    for (const PanelScene& panel : panels)
+    std::vector<level2::Moment> moments;
+    for (const PanelScene& panel : panels) {
         names.push_back(level2::moment_name(panel.moment));
+        moments.push_back(panel.moment);
+    }
+    keep_used(options, moments);
     options.moment = fmt::format("{}", fmt::join(names, ","));
     options.takes_moments = true;
     auto made = PictureGrid::make_each(std::move(options));

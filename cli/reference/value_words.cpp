@@ -43,6 +43,9 @@ Names moments() {
 Names dealiasings() {
     return {"off", "auto", "profile", "region", "anchored"};
 }
+Names motions() {
+    return {"auto", "right", "left", "mean"};
+}
 Names colors() {
     return row_names(render::built_in_tables());
 }
@@ -144,6 +147,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--product", "PRODUCT", Kept::nowhere, offered::products},
     {"--moment", "MOMENT", Kept::nowhere, offered::moments},
     {"--dealias", "RUNG", Kept::nowhere, offered::dealiasings},
+    {"--storm-motion", "MOTION", Kept::nowhere, offered::motions},
     {"--colors", "TABLE", Kept::files, offered::colors},
     {"--projection", "PROJECTION", Kept::nowhere, offered::projections},
     {"--overlap", "RULE", Kept::nowhere, offered::overlaps},

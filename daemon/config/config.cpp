@@ -164,10 +164,26 @@ void read_moments(TomlTable& ingest, GridConfig& config) {
     }
 }
 
+// Reads how velocities are dealiased. Derived moments need it.
+void read_dealiasing(TomlTable& ingest, GridConfig& config) {
+    const auto name = ingest.text("dealias");
+    if (!name) return;
+    const auto rung = retrieve::dealiasing_from_name(*name);
+    if (!rung) return ingest.complain("dealias", rung.error().message);
+    const auto derived = std::ranges::find_if(
+        config.moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    if (*rung == retrieve::Dealiasing::off && derived != config.moments.end())
+        return ingest.complain("dealias", fmt::format("\"off\" does not go with the moment {}, "
+                                                      "which is dealiased",
+                                                      level2::moment_name(*derived)));
+    config.dealiasing = *rung;
+}
+
 void read_grid(TomlTable& ingest, GridConfig& config) {
     config.threads = ingest.whole_number("threads", {0, 256}).value_or(0);
     if (config.threads == 0) config.threads = processors();
     read_moments(ingest, config);
+    read_dealiasing(ingest, config);
     read_size(ingest, config);
     read_levels(ingest, config);
     check_grid(ingest, config);

@@ -25,6 +25,7 @@
 #include "stormcellar/cache/budget.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/dealias.h"
 #include "web/config/web_config.h"
 
 namespace stormcellar::daemon {
@@ -59,6 +60,7 @@ struct PathsConfig {
 // Grids to make, and the number of threads, with the same defaults as pipeline::IngestOptions.
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
+    retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;  // for derived moments
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32

@@ -51,6 +51,7 @@ IngestSink::IngestSink(catalog::CatalogWriter catalog, cache::RollingStore store
 pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const {
     pipeline::IngestOptions options;
     options.moments = config.grid.moments;
+    options.derived.dealiasing = config.grid.dealiasing;
     options.spacing_m = config.grid.spacing_m;
     options.nx = config.grid.nx;
     options.ny = config.grid.ny;

@@ -23,6 +23,11 @@ constexpr auto moment_rules = std::to_array<MomentRules>({
      ValueUnit::mps,
      false,
      "each measures along its own beams"},
+    {Moment::srv,
+     {2, -1024, 0.25F, true},
+     ValueUnit::mps,
+     false,
+     "each measures along its own beams, relative to its own storm motion"},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 

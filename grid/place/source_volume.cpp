@@ -105,8 +105,9 @@ Result<SourceVolume> take_source(level2::Decoded decoded, const std::string& fil
             return fail(placed.error().code, "{}: {}", file, placed.error().message);
     }
     if (wish.derive) {
-        if (Status derived = wish.derive(source.volume); !derived)
-            return fail(derived.error().code, "{}: {}", file, derived.error().message);
+        const auto notes = wish.derive(source.volume);
+        if (!notes) return fail(notes.error().code, "{}: {}", file, notes.error().message);
+        source.notes.insert(source.notes.end(), notes->begin(), notes->end());
     }
     if (!troubles.empty()) {
         source.radar_troubles = {

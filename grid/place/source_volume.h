@@ -40,8 +40,8 @@ struct SourceWish {
     ChooseCuts choose_cuts = {};
     // Gives the volume a name or a position that the file lacks.
     std::function<Status(level2::Volume&)> place = {};
-    // Adds derived moments, after `place`.
-    std::function<Status(level2::Volume&)> derive = {};
+    // Adds derived moments, after `place`, and returns notes on them.
+    std::function<Result<std::vector<std::string>>(level2::Volume&)> derive = {};
     // Added to the error message for a radar whose position is unknown.
     std::string_view how_to_place = {};
     int threads = 1;

@@ -1,5 +1,6 @@
 #include "pipeline/keep/site_grids.h"
 
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -119,14 +120,27 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     return {};
 }
 
-// Returns the volume, or, for a derived moment, its copy in `derived` with that moment.
-Result<const level2::Volume*> SiteGrids::derive(const level2::Volume& volume, level2::Moment moment,
-                                                std::optional<level2::Volume>& derived) const {
-    if (!level2::facts_of(moment).is_derived) return &volume;
-    auto made = retrieve::dealiased_velocities(volume, options_.dealiasing);
+// Returns the volume, or, for a derived moment, its copy in `derived` with that moment. A moment
+// that the volume does not allow to derive leaves a remark in the outcome, because the other
+// moments are still good.
+Result<SiteGrids::UsedVolume> SiteGrids::used_volume(const level2::Volume& measured,
+                                                     level2::Moment moment,
+                                                     const GridSource& source,
+                                                     std::optional<level2::Volume>& derived,
+                                                     IngestOutcome& outcome) const {
+    UsedVolume used{&measured, source};
+    if (!level2::facts_of(moment).is_derived) return used;
+    auto made = retrieve::derived_velocities(measured, std::array{moment}, options_.derived);
+    if (!made && made.error().code == ErrorCode::not_found) {
+        outcome.reason =
+            fmt::format("no grid of {}: {}", level2::moment_name(moment), made.error().message);
+        return UsedVolume{};
+    }
     if (!made) return pass_on(made);
-    derived = std::move(*made);
-    return &*derived;
+    derived = std::move(made->volume);
+    used.volume = &*derived;
+    used.source.notes.insert(used.source.notes.end(), made->notes.begin(), made->notes.end());
+    return used;
 }
 
 Status SiteGrids::keep_moment(const level2::Volume& measured, level2::Moment moment,
@@ -137,10 +151,11 @@ Status SiteGrids::keep_moment(const level2::Volume& measured, level2::Moment mom
     }
     const auto start = Clock::now();
     std::optional<level2::Volume> derived;
-    const auto used = derive(measured, moment, derived);
+    const auto used = used_volume(measured, moment, source, derived, outcome);
     if (!used) return pass_on(used);
-    const level2::Volume& volume = **used;
-    auto made = make(volume, moment, source, threads);
+    if (used->volume == nullptr) return {};
+    const level2::Volume& volume = *used->volume;
+    auto made = make(volume, moment, used->source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     outcome.partial = outcome.partial || source.partial;
@@ -173,10 +188,11 @@ Status SiteGrids::keep_living(const level2::Volume& measured, level2::Moment mom
     }
     const auto start = Clock::now();
     std::optional<level2::Volume> derived;
-    const auto used = derive(measured, moment, derived);
+    const auto used = used_volume(measured, moment, source, derived, outcome);
     if (!used) return pass_on(used);
-    const level2::Volume& volume = **used;
-    auto made = make(volume, moment, source, threads);
+    if (used->volume == nullptr) return {};
+    const level2::Volume& volume = *used->volume;
+    auto made = make(volume, moment, used->source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     const auto commit_start = Clock::now();

@@ -41,8 +41,9 @@ class SiteGrids {
 
     // Grids each of the moments that the volume holds, audits the grids and commits them. A new
     // grid is dropped if a better one exists (pipeline/keep/keep_rule.h) or the cache's limits do
-    // not keep it; the outcome says so. Adds the paths of the grids, including better ones that
-    // stay, and the times to the outcome.
+    // not keep it; the outcome says so. The outcome also says why a moment cannot be derived, as
+    // SRV if the wind profile does not reach. Adds the paths of the grids, including better ones
+    // that stay, and the times to the outcome.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
     // Grids one moment of a growing volume and commits the grid, like keep(). Neither audits nor
@@ -56,9 +57,15 @@ class SiteGrids {
         grid::Grid grid;
         grid::GridderOptions gridder;
     };
-    [[nodiscard]] Result<const level2::Volume*> derive(
-        const level2::Volume& volume, level2::Moment moment,
-        std::optional<level2::Volume>& derived) const;
+    // A volume that holds a moment, and its source.
+    struct UsedVolume {
+        const level2::Volume* volume = nullptr;  // null: the moment cannot be derived
+        GridSource source;
+    };
+    [[nodiscard]] Result<UsedVolume> used_volume(const level2::Volume& measured,
+                                                 level2::Moment moment, const GridSource& source,
+                                                 std::optional<level2::Volume>& derived,
+                                                 IngestOutcome& outcome) const;
     Status keep_moment(const level2::Volume& measured, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
     Result<Made> make(const level2::Volume& volume, level2::Moment moment, const GridSource& source,

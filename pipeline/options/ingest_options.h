@@ -17,7 +17,7 @@
 #include "stormcellar/base/station_rule.h"
 #include "stormcellar/level2/selection.h"
 #include "stormcellar/level2/volume.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::pipeline {
 
@@ -71,8 +71,7 @@ struct IngestOptions {
     std::shared_ptr<StationRule> stations;
     // Moments of each site's own grids; one decoding and one geometry serve all. Not empty.
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    // How velocities are dealiased if VELD is one of the moments.
-    retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;
+    retrieve::DerivedOptions derived;  // for moments that are derived
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32

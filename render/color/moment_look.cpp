@@ -212,6 +212,8 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
     {Moment::rho, "Correlation coefficient", "nws-rho", "smooth-rho", rho_extinction},
     {Moment::cfp, "Clutter filter power removed", "cfp", "smooth-cfp", cfp_extinction, true},
     {Moment::veld, "Dealiased velocity", "nws-velocity", "smooth-velocity", velocity_extinction},
+    {Moment::srv, "Storm-relative velocity", "nws-velocity", "smooth-velocity",
+     velocity_extinction},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 

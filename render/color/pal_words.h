@@ -23,7 +23,6 @@ inline constexpr auto pal_products = std::to_array<PalProduct>({
     {"BR", level2::Moment::ref},
     {"CR", level2::Moment::ref},
     {"BV", level2::Moment::vel},
-    {"SRV", level2::Moment::vel},
     {"CC", level2::Moment::rho},
     {"ET", {}, "km"},
     {"EET", {}, "km"},

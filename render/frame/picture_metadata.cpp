@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include "base/printable.h"
+#include "render/view/length_text.h"
 #include "stormcellar/base/version.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::render {
 namespace {
@@ -94,6 +96,9 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     add("Between grids", facts.between);
     add("Picture", picture_text(scene));
     add("Picture error", facts.error);
+    if (const auto storm = retrieve::motion_in_notes(provenance.notes);
+        storm && scene.moment == level2::Moment::srv)
+        add("Storm motion", motion_text(*storm, scene.units));
     add("Software", fmt::format("stormcellar {}", software_version));
     return all;
 }

@@ -174,6 +174,12 @@ std::string duration_text(std::chrono::seconds duration) {
     return fmt::format("{} min {} s", seconds / 60, seconds % 60);
 }
 
+std::string product_line(const Scene& scene, const FrameFacts& facts) {
+    if (!facts.storm_motion || scene.moment != level2::Moment::srv) return product_title(scene);
+    return fmt::format("{}, {}", product_title(scene),
+                       motion_text(*facts.storm_motion, scene.units));
+}
+
 HeaderTexts header_of(const FrameFacts& facts, const std::string& product) {
     const std::string time = format_utc(std::chrono::floor<std::chrono::seconds>(facts.time));
     return {.title = title_of(facts),
@@ -259,7 +265,7 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     }
     if (view_of(scene.product) == View::section)
         make_room_for_inset(space, builder, layout, colors);
-    lay_out_header(builder, space.shape, scene.width, header_of(facts, picture.legend.product));
+    lay_out_header(builder, space.shape, scene.width, header_of(facts, product_line(scene, facts)));
     lay_out_footer(builder, scene.width, scene.height, footer_of(scene, facts, picture));
     if (space.band > 0) {
         lay_out_band(builder, picture.legend, colors);

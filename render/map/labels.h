@@ -52,6 +52,8 @@ struct HeaderTexts {
     std::string title, product, time, local_time, warnings;
 };
 [[nodiscard]] HeaderTexts header_of(const FrameFacts& facts, const std::string& product);
+// Returns the title of the product and, for the storm-relative velocity, the motion of the storm.
+[[nodiscard]] std::string product_line(const Scene& scene, const FrameFacts& facts);
 // Places the header of a picture of this shape over its whole width, in pixels.
 void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
                     const HeaderTexts& texts);

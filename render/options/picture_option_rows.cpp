@@ -56,6 +56,13 @@ constexpr std::array option_rows{
                                      .check = check_dealiasing,
                                      .known = known_dealiasings},
                   .help = "How to dealias the velocity (VELD instead of VEL): {}"},
+    PictureOption{.option = "--storm-motion",
+                  .section = "picture",
+                  .key = "storm_motion",
+                  .value = TextValue{.field = [](To to) { return &to.options.storm_motion; },
+                                     .check = check_motion,
+                                     .known = known_motions},
+                  .help = "The motion to which the storm-relative velocity, SRV, refers: {}"},
     PictureOption{.option = "--colors",
                   .old_option = "--colours",
                   .section = "picture",
@@ -367,6 +374,9 @@ const PictureOption& moment_option() {
 }
 const PictureOption& dealias_option() {
     return row_of("dealias");
+}
+const PictureOption& storm_motion_option() {
+    return row_of("storm_motion");
 }
 
 const PictureOption& colors_option() {

@@ -88,6 +88,15 @@ Status check_dealiasing(const std::string& name) {
     return rung ? Status{} : pass_on(rung);
 }
 
+std::string known_motions() {
+    return retrieve::motion_choices();
+}
+
+Status check_motion(const std::string& text) {
+    const auto motion = retrieve::motion_choice_from(text);
+    return motion ? Status{} : pass_on(motion);
+}
+
 Status check_time_zone(const std::string& zone) {
     if (format_local(UtcTime{}, zone)) return {};
     return fail(ErrorCode::bad_argument, "the time zone '{}' is not known on this machine",

@@ -41,6 +41,8 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] std::string known_moments();
 [[nodiscard]] std::string known_dealiasings();
 [[nodiscard]] Status check_dealiasing(const std::string& name);
+[[nodiscard]] std::string known_motions();
+[[nodiscard]] Status check_motion(const std::string& text);
 [[nodiscard]] std::string known_smoothings();
 
 // Returns true if colors come from a file and not from a table by name.

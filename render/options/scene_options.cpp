@@ -88,9 +88,20 @@ Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOption
     const bool is_velocity = level2::measured_moment(moment) == level2::Moment::vel;
     if (*rung == retrieve::Dealiasing::off || (!is_velocity && !options.panels.empty()))
         return moment;
-    if (is_velocity) return level2::Moment::veld;
+    if (is_velocity) return level2::facts_of(moment).is_derived ? moment : level2::Moment::veld;
     return fail(ErrorCode::bad_argument, "{} is for velocity; the moment is {}",
                 spelled(dealias_option(), options), level2::moment_name(moment));
+}
+
+// Refuses a storm motion that the moment does not need. Panels have several moments.
+Status check_storm_motion(level2::Moment moment, const SceneOptions& options) {
+    const auto motion = retrieve::motion_choice_from(options.storm_motion);
+    if (!motion) return fail(ErrorCode::bad_argument, "{}", motion.error().message);
+    const bool is_used = moment == level2::Moment::srv || !options.panels.empty();
+    if (is_used || options.storm_motion == retrieve::automatic_motion) return {};
+    return fail(ErrorCode::bad_argument,
+                "{} is for the storm-relative velocity, SRV; the moment is {}",
+                spelled(storm_motion_option(), options), level2::moment_name(moment));
 }
 
 }  // namespace
@@ -108,6 +119,7 @@ Result<Scene> scene_of(const SceneOptions& options) {
     const auto shown = dealiased_moment(*moment, options);
     if (!shown) return pass_on(shown);
     scene.moment = *shown;
+    if (auto used = check_storm_motion(*shown, options); !used) return pass_on(used);
     const auto theme = theme_from_name(options.theme);
     if (!theme) return pass_on(theme);
     scene.theme = *theme;
@@ -144,6 +156,23 @@ Result<Scene> scene_of(const SceneOptions& options) {
     return scene;
 }
 
+Status check_stored_motion(const SceneOptions& options, Product product) {
+    if (options.storm_motion == retrieve::automatic_motion || facts_of(product).is_of_sweep)
+        return {};
+    return fail(ErrorCode::bad_argument,
+                "{} is for frames of files and for a ppi; kept grids have the motion of their own "
+                "wind profile",
+                spelled(storm_motion_option(), options));
+}
+
+retrieve::DerivedOptions derived_options_of(const SceneOptions& options) {
+    retrieve::DerivedOptions derived;
+    const auto rung = retrieve::dealiasing_from_name(options.dealias);
+    if (rung && *rung != retrieve::Dealiasing::off) derived.dealiasing = *rung;
+    derived.motion = retrieve::motion_choice_from(options.storm_motion).value_or(derived.motion);
+    return derived;
+}
+
 int thread_count(const SceneOptions& options) {
     if (options.threads > 0) return options.threads;
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -155,6 +184,8 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
                      description.provenance.partial};
     facts.radar_troubles = description.provenance.radar_troubles;
     facts.left_out = description.provenance.left_out;
+    if (description.moment == level2::Moment::srv)
+        facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
     const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
     const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
     if (!local.ends_with(" UTC")) facts.local_time = local;

@@ -19,7 +19,7 @@
 #include "stormcellar/render/animation.h"
 #include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/scene.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::render {
 
@@ -33,6 +33,7 @@ struct SceneOptions {
     std::string product = "volume";
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string dealias{retrieve::dealiasing_name(retrieve::Dealiasing::off)};
+    std::string storm_motion{retrieve::automatic_motion};  // of SRV
     std::string theme{theme_name(Theme::dark)};
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment
@@ -64,6 +65,15 @@ struct LoopChoices {
 // Returns the requested scene, validated. Errors: bad_argument; the message names the invalid
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
+
+// Refuses a storm motion other than `auto` for a picture of kept grids, which have the motion of
+// their own wind profile. A ppi is made from raw files, so it can have any motion. Errors:
+// bad_argument, naming the option.
+[[nodiscard]] Status check_stored_motion(const SceneOptions& options, Product product);
+
+// Returns how the moments of a picture are derived that come from raw files. The options must be
+// those of a valid scene.
+[[nodiscard]] retrieve::DerivedOptions derived_options_of(const SceneOptions& options);
 
 [[nodiscard]] int thread_count(const SceneOptions& options);
 

@@ -40,6 +40,13 @@ std::string height_text(double metres, const Units& units) {
     return length_text(metres, units.height);
 }
 
+std::string motion_text(const retrieve::Motion& motion, const Units& units) {
+    const UnitFacts& unit = facts_of(units.speed);
+    return fmt::format("motion from {:.0f} degrees at {} {}",
+                       std::fmod(std::round(motion.direction_deg()), 360.0),
+                       number_text(motion.speed_mps() / unit.si, 3), unit.symbol);
+}
+
 double round_distance(double metres, const Units& units) {
     if (units.distance == Unit::km) return metres;
     const double unit_m = facts_of(units.distance).si;

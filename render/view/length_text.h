@@ -1,4 +1,5 @@
-// render/view/length_text.h -- how labels write numbers, values, lengths on the ground and heights.
+// render/view/length_text.h -- how labels write numbers, values, lengths on the ground, heights and
+// motions.
 //
 // Threads   Pure functions.
 #pragma once
@@ -6,6 +7,7 @@
 #include <string>
 
 #include "stormcellar/render/units.h"
+#include "stormcellar/retrieve/storm_motion.h"
 
 namespace stormcellar::render {
 
@@ -21,6 +23,9 @@ namespace stormcellar::render {
 [[nodiscard]] std::string distance_text(double metres, const Units& units);
 // Returns "3 km", "9.84 kft" or "9840 ft".
 [[nodiscard]] std::string height_text(double metres, const Units& units);
+
+// Returns "motion from 240 degrees at 15 m/s", or at a speed in another unit: "29.2 kt".
+[[nodiscard]] std::string motion_text(const retrieve::Motion& motion, const Units& units);
 
 // Returns the round length nearest to `metres` (above 0), by their ratio: 1, 1.5, 2, 2.5, 3, 4, 5,
 // 6 or 8 of the unit of distances, or as many tens, hundreds or tenths. Kilometers are not rounded.

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -111,29 +110,6 @@ Result<Dealiased> add_dealiased_velocity(level2::Volume& volume, Dealiasing rung
         sweep.moments.push_back(dealiased_moment(sweep, folds));
     }
     return dealiased;
-}
-
-Result<level2::Volume> dealiased_velocities(const level2::Volume& volume, Dealiasing rung) {
-    level2::Volume made{volume.header,
-                        volume.station,
-                        volume.block,
-                        volume.vcp_message,
-                        volume.vcp,
-                        volume.vcp_source,
-                        {}};
-    for (const level2::Sweep& sweep : volume.sweeps) {
-        level2::Sweep& copy = made.sweeps.emplace_back(level2::Sweep{sweep.elevation_number,
-                                                                     sweep.message_type,
-                                                                     sweep.azimuth_spacing_deg,
-                                                                     sweep.vcp_elevation_deg,
-                                                                     sweep.radials,
-                                                                     {}});
-        std::ranges::copy_if(sweep.moments, std::back_inserter(copy.moments),
-                             [](const SweepMoment& kind) { return kind.moment == Moment::vel; });
-    }
-    const auto dealiased = add_dealiased_velocity(made, rung);
-    if (!dealiased) return pass_on(dealiased);
-    return made;
 }
 
 }  // namespace stormcellar::retrieve

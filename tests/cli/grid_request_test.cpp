@@ -20,6 +20,35 @@ Result<grid::GridSpec> spec_for(const std::string& arguments, double latitude_de
     return spec_about(*request, center[0], center[1]);
 }
 
+Result<GridRequest> request_for(const std::string& arguments) {
+    GridOptions options;
+    CLI::App app;
+    add_grid_options(app, options);
+    app.parse("file -o out.nc " + arguments);
+    return parse_request(options);
+}
+
+TEST(GridRequest, DerivedMomentsAreDealiasedAndHaveAMotion) {
+    using level2::Moment;
+    using retrieve::Dealiasing;
+    const auto right = request_for("--moment SRV");
+    ASSERT_TRUE(right) << right.error().message;
+    EXPECT_EQ(right->derived.dealiasing, Dealiasing::automatic);
+    EXPECT_EQ(right->derived.motion.rule, retrieve::MotionRule::right);
+    const auto given = request_for("--moment VEL,SRV --dealias region --storm-motion 180/12");
+    ASSERT_TRUE(given) << given.error().message;
+    EXPECT_EQ(given->moments(), (std::vector{Moment::veld, Moment::srv}));
+    EXPECT_EQ(given->derived.dealiasing, Dealiasing::region);
+    EXPECT_EQ(given->derived.motion.rule, retrieve::MotionRule::given);
+    EXPECT_NEAR(given->derived.motion.motion.v_mps, 12, 1e-9);
+    EXPECT_EQ(request_for("--moment SRV --dealias off").error().message,
+              "--dealias off does not go with --moment SRV, which is dealiased");
+    EXPECT_EQ(request_for("--moment VEL --storm-motion auto").error().message,
+              "--storm-motion needs --moment SRV");
+    EXPECT_EQ(request_for("--moment SRV --storm-motion 500/1").error().code,
+              ErrorCode::bad_argument);
+}
+
 TEST(GridRequest, NothingGivenIsTheDefaultGridAboutTheSite) {
     const auto spec = spec_for("", 35, -97);
     ASSERT_TRUE(spec);

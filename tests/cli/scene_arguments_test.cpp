@@ -85,7 +85,7 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
-    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP or VELD"));
+    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD or SRV"));
 }
 
 // 2026-11-22: `--light shadow` with a composite was ignored without a message.
@@ -180,6 +180,20 @@ TEST(SceneOptions, AMomentMayBeInLowerCase) {
     EXPECT_EQ(scene->moment, level2::Moment::vel);
 }
 
+TEST(SceneOptions, AStormMotionIsForTheStormRelativeVelocity) {
+    const SceneOptions options = parse("--moment SRV --storm-motion 240/15");
+    const auto scene = scene_of(options);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->moment, level2::Moment::srv);
+    EXPECT_EQ(options.storm_motion, "240/15");
+    EXPECT_EQ(scene_of(parse("--moment SRV --dealias region"))->moment, level2::Moment::srv);
+    EXPECT_TRUE(scene_of(parse("--storm-motion auto")));
+    EXPECT_EQ(scene_of(parse("--moment VEL --storm-motion left")).error().message,
+              "--storm-motion is for the storm-relative velocity, SRV; the moment is VEL");
+    EXPECT_THAT(scene_of(parse("--moment SRV --storm-motion fast")).error().message,
+                ::testing::HasSubstr("'fast' is no storm motion; it must be auto, right, left"));
+}
+
 // 2026-11-25: a message about a number did not name the option of the number.
 TEST(SceneOptions, AnOptionOutOfItsRangeIsNamed) {
     const std::vector<std::pair<const char*, const char*>> said = {
@@ -220,6 +234,16 @@ TEST(FactsOf, SaysWhatTheGridSays) {
     EXPECT_THAT(facts.radar_troubles, ::testing::ElementsAre("KTLX: on auxiliary power"));
     EXPECT_EQ(facts.left_out, description().provenance.left_out);
     EXPECT_FALSE(facts.antenna_to_picture) << "the volume is old";
+}
+
+TEST(FactsOf, TheStormMotionIsThatOfTheGridsNotes) {
+    cache::GridDescription grid = description();
+    grid.provenance.notes = {"KTLX: storm motion 240/15, right mover of the wind profile"};
+    EXPECT_FALSE(frame_facts_of("plains", grid, "UTC").storm_motion) << "the moment is REF";
+    grid.moment = level2::Moment::srv;
+    const auto motion = frame_facts_of("plains", grid, "UTC").storm_motion;
+    ASSERT_TRUE(motion);
+    EXPECT_EQ(retrieve::format_motion(*motion), "240/15");
 }
 
 TEST(FactsOf, UtcIsSaidOnceAndANameThatIsNoZoneNotAtAll) {

@@ -110,6 +110,28 @@ TEST_F(ConfigFile, MomentsAreAListOrTheOldKeyWithOneName) {
               std::string::npos);
 }
 
+TEST_F(ConfigFile, DealiasingIsARungAndDerivedMomentsNeedIt) {
+    using retrieve::Dealiasing;
+    EXPECT_EQ(load(paths)->fixed.grid.dealiasing, Dealiasing::automatic);
+    const auto loaded = [&](const std::string& lines) {
+        return load(std::string(paths) + "[ingest]\n" + lines);
+    };
+    EXPECT_EQ(loaded("dealias = \"region\"\n")->fixed.grid.dealiasing, Dealiasing::region);
+    EXPECT_EQ(loaded("dealias = \"off\"\nmoments = [\"VEL\"]\n")->fixed.grid.dealiasing,
+              Dealiasing::off);
+    const auto refused = [&](const std::string& lines) {
+        const auto config = loaded(lines);
+        return config ? std::string{} : config.error().message;
+    };
+    EXPECT_NE(refused("dealias = \"fast\"\n").find("off, auto, profile, region or anchored"),
+              std::string::npos);
+    for (const char* moment : {"VELD", "SRV"}) {
+        EXPECT_NE(refused(fmt::format("dealias = \"off\"\nmoments = [\"REF\", \"{}\"]\n", moment))
+                      .find(fmt::format("does not go with the moment {}", moment)),
+                  std::string::npos);
+    }
+}
+
 TEST_F(ConfigFile, StationsAreKnownOrAnyOrAList) {
     EXPECT_EQ(load(paths)->fixed.ingest.stations, StationRule{});
     const auto rule_of = [&](const std::string& value) {
@@ -244,7 +266,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
     EXPECT_EQ(
         complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
         "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
-        "CFP");
+        "CFP VELD SRV");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),

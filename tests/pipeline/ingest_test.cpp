@@ -291,5 +291,44 @@ TEST_F(IngestTest, FileThatIsGoneIsMarkedSo) {
     EXPECT_EQ(only_entry("KTLX").state, FileState::gone);
 }
 
+class DerivedIngestTest : public SmallHouse {
+  protected:
+    DerivedIngestTest() : SmallHouse(options()) {}
+    static IngestOptions options() {
+        IngestOptions options = small_grid();
+        options.moments = {level2::Moment::ref, level2::Moment::srv};
+        return options;
+    }
+};
+
+TEST_F(DerivedIngestTest, AGridOfTheStormRelativeVelocityKnowsItsMotion) {
+    STORMCELLAR_NEED_DATA();
+    const auto outcome =
+        ingestor_.ingest(testing::real_file("volumes/KTLX19990503_235621.gz"), false);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->grids.size(), 2U);
+    const auto entries =
+        store_.list("KTLX", level2::Moment::srv, std::nullopt, std::nullopt).value();
+    ASSERT_EQ(entries.size(), 1U);
+    const auto file = cache::GridFile::open(entries.front().path);
+    ASSERT_TRUE(file);
+    const auto motion = retrieve::motion_in_notes(file->description().provenance.notes);
+    ASSERT_TRUE(motion);
+    // The storms of that day moved from the southwest.
+    EXPECT_GT(motion->u_mps, 5);
+    EXPECT_GT(motion->v_mps, 5);
+}
+
+TEST_F(DerivedIngestTest, AVolumeWithoutAMotionKeepsItsOtherGridsAndSaysWhy) {
+    STORMCELLAR_NEED_DATA();
+    const auto outcome =
+        ingestor_.ingest(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz"), false);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
+    EXPECT_EQ(outcome->grids.size(), 1U);
+    EXPECT_TRUE(outcome->reason.starts_with("no grid of SRV: the wind profile gives no storm"))
+        << outcome->reason;
+}
+
 }  // namespace
 }  // namespace stormcellar::pipeline

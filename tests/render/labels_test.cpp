@@ -223,6 +223,21 @@ TEST(Labels, SayWhatWasDone) {
         EXPECT_THAT(texts, Contains(std::to_string(dbz)));
 }
 
+TEST(Labels, SayTheMotionOfTheStormInTheUnitOfSpeeds) {
+    using ::testing::Contains;
+    Scene scene;
+    scene.product = Product::composite;
+    scene.moment = level2::Moment::srv;
+    FrameFacts facts = facts_for("KTLX", 1, false);
+    facts.storm_motion = retrieve::parse_motion("240/15").value();
+    const std::string title = "Composite storm-relative velocity (column maximum)";
+    EXPECT_THAT(texts_of(scene, facts), Contains(title + ", motion from 240 degrees at 15 m/s"));
+    scene.units.speed = Unit::knots;
+    EXPECT_THAT(texts_of(scene, facts), Contains(title + ", motion from 240 degrees at 29.2 kt"));
+    facts.storm_motion.reset();
+    EXPECT_THAT(texts_of(scene, facts), Contains(title));
+}
+
 TEST(Labels, WhatOneSiteSeesOfADomainIsTheSitesPicture) {
     EXPECT_THAT(texts_of(Scene{}, facts_for("moore.KTLX", 1, false)),
                 ::testing::Contains("KTLX  Oklahoma City, OK  (moore)"));

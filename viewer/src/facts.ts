@@ -11,6 +11,7 @@ export const moments = {
     RHO: { unit: '1', mixing: 'mean', isDoppler: false },
     CFP: { unit: 'dB', mixing: 'mean', isDoppler: false },
     VELD: { unit: 'm/s', mixing: 'mean', isDoppler: true },
+    SRV: { unit: 'm/s', mixing: 'mean', isDoppler: true },
 } as const;
 
 // Units by quantity, the usual one first.
@@ -69,7 +70,6 @@ export const palProducts: Record<string, { moment?: string; unit: string }> = {
     BR: { moment: 'REF', unit: 'dBZ' },
     CR: { moment: 'REF', unit: 'dBZ' },
     BV: { moment: 'VEL', unit: 'm/s' },
-    SRV: { moment: 'VEL', unit: 'm/s' },
     CC: { moment: 'RHO', unit: '' },
     ET: { unit: 'km' },
     EET: { unit: 'km' },

@@ -20,7 +20,7 @@
 namespace stormcellar::level2 {
 
 // Grid files hold these numbers, so do not change them; add a new moment at the end.
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld };
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv };
 
 // The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
@@ -99,6 +99,15 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      true,
      3,
      true},
+    {Moment::srv,
+     "SRV",
+     "m/s",
+     {"radial velocity, away from the radar, dealiased, relative to a storm"},
+     Circle::none,
+     true,
+     true,
+     3,
+     true},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
@@ -136,7 +145,7 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
 
 // Returns the measured moment from which a derived moment comes, or the moment itself.
 [[nodiscard]] constexpr Moment measured_moment(Moment moment) {
-    return moment == Moment::veld ? Moment::vel : moment;
+    return facts_of(moment).is_derived ? Moment::vel : moment;
 }
 
 // Finds a moment by its name in upper case.

@@ -11,6 +11,7 @@
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/storm_motion.h"
 
 namespace stormcellar::render {
 
@@ -27,6 +28,8 @@ struct FrameFacts {
     // The faults that radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
     std::vector<std::string> left_out = {};  // machines whose data are missing (grid::Provenance)
+    // The motion to which the storm-relative velocity SRV refers, if all sites have the same.
+    std::optional<retrieve::Motion> storm_motion = {};
     bool interpolated = false;  // the grid was interpolated between volumes, as requested
 };
 

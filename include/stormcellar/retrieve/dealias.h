@@ -78,8 +78,5 @@ struct Dealiased {
 // velocity, or if its velocity would exceed 320 m/s. Replaces VELD if the volume has it.
 // Errors: not_found if the volume has no velocities.
 [[nodiscard]] Result<Dealiased> add_dealiased_velocity(level2::Volume& volume, Dealiasing rung);
-// Returns a copy of the volume that has only velocities, VEL and VELD. Errors: as above.
-[[nodiscard]] Result<level2::Volume> dealiased_velocities(const level2::Volume& volume,
-                                                          Dealiasing rung);
 
 }  // namespace stormcellar::retrieve

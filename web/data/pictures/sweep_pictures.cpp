@@ -1,5 +1,6 @@
 #include "web/data/pictures/sweep_pictures.h"
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "render/options/sweep_source.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/gridder.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::web {
 namespace {
@@ -26,15 +28,24 @@ struct PlacedSweep {
 // name may differ between machines. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
                                  std::optional<UtcTime> start, const render::PanelScene& panel,
+                                 const retrieve::DerivedOptions& derived,
                                  const grid::GridSpec* plane, int threads) {
     const grid::SweepWish wish = render::sweep_wish_of(panel.scene);
-    auto decoded = grid::decode_source(
-        bytes, file,
-        {.moments = {panel.moment},
-         .choose_cuts =
-             [&](const level2::Volume& volume) { return render::cuts_of_wish(volume, wish); },
-         .threads = threads,
-         .start = start});
+    grid::SourceWish source_wish{
+        .moments = {panel.moment},
+        .choose_cuts =
+            [&](const level2::Volume& volume) { return render::cuts_of_wish(volume, wish); },
+        .threads = threads,
+        .start = start};
+    if (level2::facts_of(panel.moment).is_derived) {
+        source_wish.choose_cuts = {};  // all cuts help to dealias one
+        source_wish.derive = [&](level2::Volume& volume) -> Result<std::vector<std::string>> {
+            auto made = retrieve::add_derived_moments(volume, source_wish.moments, derived);
+            if (!made) return pass_on(made);
+            return std::move(made->notes);
+        };
+    }
+    auto decoded = grid::decode_source(bytes, file, source_wish);
     if (!decoded) return pass_on(decoded);
     auto source = std::make_shared<const grid::SourceVolume>(std::move(*decoded));
     auto sweep = grid::SweepLookup::find({source, &source->volume}, source->site, panel.moment,
@@ -104,7 +115,9 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
     for (const render::PanelScene& panel : picture.style.panels) {
         const grid::GridSpec* const plane =
             sweeps.empty() ? nullptr : &sweeps.front().description.spec;
-        auto sweep = decode_sweep(raw->bytes, file, start, panel, plane, options_.threads);
+        auto sweep = decode_sweep(raw->bytes, file, start, panel,
+                                  render::derived_options_of(picture.style.options), plane,
+                                  options_.threads);
         if (!sweep) return pass_on(sweep);
         sweeps.push_back(std::move(*sweep));
     }

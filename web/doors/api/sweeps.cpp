@@ -1,5 +1,6 @@
 // Operations on the sweeps of a raw volume and their gates.
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/sweep_choice.h"
 #include "stormcellar/level2/decode.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "web/data/grids/compressed.h"
 #include "web/data/grids/packed_sweep.h"
 #include "web/doors/api/operations.h"
@@ -96,19 +97,20 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// Returns the volume as volume_of() does, but with velocities alone, which are dealiased.
-Answered<ApiState::DecodedVolume> dealiased_volume_of(const ApiCall& call,
-                                                      const FoundVolume& found) {
-    const std::string key = found.key + "/dealiased";
+// Returns the volume as volume_of() does, but with velocities alone, and the moments that come from
+// them. SRV is there only if it is the wanted moment.
+Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const FoundVolume& found,
+                                                    level2::Moment wanted) {
+    const std::string key = fmt::format("{}/{}", found.key, level2::moment_name(wanted));
     if (auto kept = call.state.find_volume(key)) return kept;
     if (call.must_be_quick) return refuse(takes_long());
     const auto measured = volume_of(call, found);
     if (!measured) return measured;
-    auto made = retrieve::dealiased_velocities(**measured, retrieve::Dealiasing::automatic);
+    auto made = retrieve::derived_velocities(**measured, std::array{wanted});
     if (!made) return refuse(made.error());
-    auto dealiased = std::make_shared<const level2::Volume>(std::move(*made));
-    call.state.keep_volume(key, dealiased);
-    return dealiased;
+    auto derived = std::make_shared<const level2::Volume>(std::move(made->volume));
+    call.state.keep_volume(key, derived);
+    return derived;
 }
 
 // Returns the sweeps that `stormcellar frame --product ppi` would draw: for each moment one sweep
@@ -141,7 +143,9 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
                                {"chosen", chosen.contains({gates.moment, number})}});
         };
         add(gates.moment, gates.word_size_bits);
-        if (gates.moment == level2::Moment::vel) add(level2::Moment::veld, 16);
+        if (gates.moment != level2::Moment::vel) continue;
+        add(level2::Moment::veld, 16);
+        add(level2::Moment::srv, 16);
     }
     ApiJson json{{"sweep", number},
                  {"elevation_number", sweep.elevation_number},
@@ -190,8 +194,9 @@ Answer api_gates(const ApiCall& call) {
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto volume = level2::facts_of(*moment).is_derived ? dealiased_volume_of(call, *found)
-                                                                 : volume_of(call, *found);
+        const auto volume = level2::facts_of(*moment).is_derived
+                                ? derived_volume_of(call, *found, *moment)
+                                : volume_of(call, *found);
         if (!volume) return volume.error();
         auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
             const auto bytes =

@@ -1,0 +1,84 @@
+// stormcellar/retrieve/derived_moments.h -- the moments that come from velocities: VELD, the
+// dealiased velocity, and SRV, the dealiased velocity relative to a storm.
+//
+// SRV is VELD minus the part of the storm's horizontal motion along the beam,
+//     (u sin a + v cos a) cos e
+// where a and e are azimuth and elevation of the radial. Like VELD, SRV is positive away from the
+// radar, comes in steps of 0.01 m/s, and keeps the flags of VEL. A gate of SRV is ambiguous where
+// VELD is, and where its velocity would exceed 320 m/s.
+//
+// Units     As in storm_motion.h. The motion is rounded to whole degrees and to 0.1 m/s before its
+//           use, so that its text gives all of it.
+// Accuracy  Half a step of VELD and half a step of SRV: 0.01 m/s for the given motion
+//           (tests/retrieve/derived_moments_test.cpp). Not covered: an error of the motion itself,
+//           which changes all velocities of a radial alike; the vertical motion of the storm; and
+//           storms of one volume that move differently.
+// Errors    bad_argument if dealiasing is off; not_found, with the reason, if the volume has no
+//           velocities, or if SRV is wanted and the wind profile gives no motion.
+// Threads   Pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/storm_motion.h"
+
+namespace stormcellar::retrieve {
+
+// The motion of SRV. All but `given` come from the volume's own wind profile (bunkers_motions()).
+enum class MotionRule : std::uint8_t { right, left, mean, given };
+
+struct MotionChoice {
+    MotionRule rule = MotionRule::right;
+    Motion motion = {};  // for `given`
+};
+
+// The default of options, which is the same as "right".
+inline constexpr std::string_view automatic_motion = "auto";
+
+// Reads auto, right, left, mean, or a motion such as 240/15. Errors: bad_argument, with these
+// words.
+[[nodiscard]] Result<MotionChoice> motion_choice_from(std::string_view text);
+// Returns "auto, right, left, mean, or a motion such as 240/15, from 240 degrees at 15 m/s".
+[[nodiscard]] std::string motion_choices();
+
+struct DerivedOptions {
+    Dealiasing dealiasing = Dealiasing::automatic;
+    MotionChoice motion = {};  // for SRV
+};
+
+struct Derived {
+    Dealiased dealiased;
+    // Remarks for the provenance of grids. The motion of SRV is one of them (motion_in_notes()).
+    std::vector<std::string> notes;
+};
+
+// Adds VELD after each velocity moment and, if it is one of the wanted moments, SRV. Replaces these
+// moments if the volume has them. Errors: see above.
+[[nodiscard]] Result<Derived> add_derived_moments(level2::Volume& volume,
+                                                  std::span<const level2::Moment> wanted,
+                                                  const DerivedOptions& options = {});
+
+struct DerivedVolume {
+    level2::Volume volume;
+    std::vector<std::string> notes;
+};
+
+// Returns a copy of the volume that has only velocities and the moments derived from them. Errors:
+// see above.
+[[nodiscard]] Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
+                                                       std::span<const level2::Moment> wanted,
+                                                       const DerivedOptions& options = {});
+
+// Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
+// or if the sites of a mosaic have different motions.
+[[nodiscard]] std::optional<Motion> motion_in_notes(std::span<const std::string> notes);
+
+}  // namespace stormcellar::retrieve

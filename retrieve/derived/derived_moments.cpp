@@ -1,0 +1,172 @@
+#include "stormcellar/retrieve/derived_moments.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "base/printable.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+using level2::Moment;
+using level2::SweepMoment;
+
+constexpr std::uint16_t code_of_ambiguous = 2;
+constexpr double most_relative_mps = 320;
+
+struct RuleFacts {
+    MotionRule rule = MotionRule::right;
+    std::string_view word = {};    // in options
+    std::string_view source = {};  // in notes
+};
+constexpr std::array<RuleFacts, 3> profile_rules = {
+    {{MotionRule::right, "right", "right mover of the wind profile"},
+     {MotionRule::left, "left", "left mover of the wind profile"},
+     {MotionRule::mean, "mean", "mean wind from 0 to 6 km"}}};
+
+struct ChosenMotion {
+    Motion motion;
+    std::string_view source;
+};
+
+// Rounds a motion to its text.
+Motion rounded(const Motion& motion) {
+    return parse_motion(format_motion(motion)).value_or(motion);
+}
+
+Result<ChosenMotion> chosen_motion(const level2::Volume& volume, const Dealiased& dealiased,
+                                   const MotionChoice& choice) {
+    if (choice.rule == MotionRule::given) return ChosenMotion{rounded(choice.motion), "as given"};
+    const auto layers = wind_profile(volume, dealiased);
+    if (!layers) return pass_on(layers);
+    const auto motions = bunkers_motions(*layers);
+    if (!motions)
+        return fail(motions.error().code, "the wind profile gives no storm motion: {}",
+                    motions.error().message);
+    const Motion& motion = choice.rule == MotionRule::right  ? motions->right
+                           : choice.rule == MotionRule::left ? motions->left
+                                                             : motions->mean;
+    const auto* facts = std::ranges::find(profile_rules, choice.rule, &RuleFacts::rule);
+    return ChosenMotion{rounded(motion), facts->source};
+}
+
+std::uint16_t storm_relative_code(const SweepMoment& dealiased, std::uint16_t code,
+                                  double storm_mps) {
+    if (code < level2::facts_of(dealiased.moment).first_valid_code) return code;
+    const double velocity = static_cast<double>(dealiased.value_of(code)) - storm_mps;
+    const bool is_in_range = std::abs(velocity) <= most_relative_mps;
+    if (!is_in_range) return code_of_ambiguous;
+    return static_cast<std::uint16_t>(std::lrint(velocity * static_cast<double>(dealiased.scale) +
+                                                 static_cast<double>(dealiased.offset)));
+}
+
+SweepMoment storm_relative_moment(const level2::Sweep& sweep, const SweepMoment& dealiased,
+                                  const Motion& storm) {
+    SweepMoment made = dealiased;
+    made.moment = Moment::srv;
+    for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
+        // The motion is the same for all gates of a radial, so compute it once.
+        const double storm_mps = -storm_relative_mps(0, sweep.radials[radial].azimuth_deg,
+                                                     sweep.radials[radial].elevation_deg, storm);
+        const std::size_t row = radial * static_cast<std::size_t>(dealiased.gate_stride);
+        for (std::int32_t gate = 0; gate < dealiased.gate_counts[radial]; ++gate) {
+            made.codes16[row + static_cast<std::size_t>(gate)] =
+                storm_relative_code(dealiased, dealiased.code(radial, gate), storm_mps);
+        }
+    }
+    return made;
+}
+
+void add_storm_relative(level2::Volume& volume, const Motion& storm) {
+    for (level2::Sweep& sweep : volume.sweeps) {
+        std::vector<SweepMoment> made;
+        for (const SweepMoment& kind : sweep.moments)
+            if (kind.moment == Moment::veld)
+                made.push_back(storm_relative_moment(sweep, kind, storm));
+        std::ranges::move(made, std::back_inserter(sweep.moments));
+    }
+}
+
+// Notes of mosaics begin with the station, as in "KTLX: storm motion 240/15, as given".
+constexpr std::string_view motion_words = "storm motion ";
+
+}  // namespace
+
+Result<MotionChoice> motion_choice_from(std::string_view text) {
+    if (text == automatic_motion) return MotionChoice{};
+    for (const RuleFacts& facts : profile_rules)
+        if (facts.word == text) return MotionChoice{facts.rule};
+    const auto motion = parse_motion(text);
+    if (motion) return MotionChoice{MotionRule::given, *motion};
+    return fail(ErrorCode::bad_argument, "'{}' is no storm motion; it must be {}", printable(text),
+                motion_choices());
+}
+
+std::string motion_choices() {
+    return "auto, right, left, mean, or a motion such as 240/15, from 240 degrees at 15 m/s";
+}
+
+Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Moment> wanted,
+                                    const DerivedOptions& options) {
+    if (options.dealiasing == Dealiasing::off)
+        return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");
+    for (level2::Sweep& sweep : volume.sweeps)
+        std::erase_if(sweep.moments,
+                      [](const SweepMoment& kind) { return kind.moment == Moment::srv; });
+    auto dealiased = add_dealiased_velocity(volume, options.dealiasing);
+    if (!dealiased) return pass_on(dealiased);
+    Derived derived{std::move(*dealiased), {}};
+    if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
+    const auto storm = chosen_motion(volume, derived.dealiased, options.motion);
+    if (!storm) return pass_on(storm);
+    add_storm_relative(volume, storm->motion);
+    derived.notes.push_back(
+        fmt::format("{}{}, {}", motion_words, format_motion(storm->motion), storm->source));
+    return derived;
+}
+
+Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
+                                         std::span<const Moment> wanted,
+                                         const DerivedOptions& options) {
+    level2::Volume made{volume.header,
+                        volume.station,
+                        volume.block,
+                        volume.vcp_message,
+                        volume.vcp,
+                        volume.vcp_source,
+                        {}};
+    for (const level2::Sweep& sweep : volume.sweeps) {
+        level2::Sweep& copy = made.sweeps.emplace_back(level2::Sweep{sweep.elevation_number,
+                                                                     sweep.message_type,
+                                                                     sweep.azimuth_spacing_deg,
+                                                                     sweep.vcp_elevation_deg,
+                                                                     sweep.radials,
+                                                                     {}});
+        std::ranges::copy_if(sweep.moments, std::back_inserter(copy.moments),
+                             [](const SweepMoment& kind) { return kind.moment == Moment::vel; });
+    }
+    auto derived = add_derived_moments(made, wanted, options);
+    if (!derived) return pass_on(derived);
+    return DerivedVolume{std::move(made), std::move(derived->notes)};
+}
+
+std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {
+    std::optional<std::string> text;
+    for (const std::string& note : notes) {
+        const std::size_t at = note.find(motion_words);
+        const bool is_at_start = at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "));
+        if (!is_at_start) continue;
+        const std::size_t from = at + motion_words.size();
+        std::string motion = note.substr(from, note.find(',', from) - from);
+        if (text && *text != motion) return std::nullopt;
+        text = std::move(motion);
+    }
+    if (!text) return std::nullopt;
+    const auto motion = parse_motion(*text);
+    return motion ? std::optional{*motion} : std::nullopt;
+}
+
+}  // namespace stormcellar::retrieve
