@@ -1,11 +1,13 @@
 // Draws sweeps as the radar saw them, from a whole file, a truncated file and the catalog of a
 // domain, and as loops.
+#include <cmath>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/degree.h"
 #include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
@@ -77,6 +79,35 @@ TEST_F(Ppi, PanelsShowTheSweepOfEachMoment) {
         run({"frame", file, "--panels", "REF,VEL", "--tolerance", "dE 2", "-o", out("b.png")});
     EXPECT_EQ(planned.status, 2);
     EXPECT_THAT(planned.err, HasSubstr("not for --panels"));
+}
+
+TEST_F(Ppi, TheStormRelativeVelocityLosesTheMotionOfTheStorm) {
+    const Words place = {volume("KTLX19990503_235621.gz"), "--moment", "SRV", "--probe-at",
+                         "35.25,-97.60"};
+    const auto at_rest = probe(with(place, {"--storm-motion", "0/0"})).at("probe");
+    const auto from_west = probe(with(place, {"--storm-motion", "270/10"})).at("probe");
+    // The radar is in the east, so the storm comes nearer, and the air seems to move away more.
+    const double azimuth = at_rest.at("gate").at("azimuth_deg");
+    EXPECT_NEAR(azimuth, 252.9, 0.1);
+    EXPECT_NEAR(from_west.at("value").get<double>() - at_rest.at("value").get<double>(),
+                -10 * std::sin(azimuth * degree), 0.02);
+}
+
+TEST_F(Ppi, TheMotionIsSaidOrItsLackIs) {
+    const auto refused = run({"frame", volume("KMPX20060106_184002.gz"), "--product", "ppi",
+                              "--moment", "SRV", "-o", out("a.png")});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("gives no storm motion: the highest wind is 0.3 km"));
+    EXPECT_THAT(refused.err, HasSubstr("give the motion, as in --storm-motion 240/15"));
+    EXPECT_FALSE(fs::exists(out("a.png")));
+    const auto four = run({"frame", volume("KTLX19990503_235621.gz"), "--product", "ppi",
+                           "--panels", "REF,SRV", "--storm-motion", "240/15", "-o", out("a.png")});
+    EXPECT_EQ(four.status, 0) << four.err;
+    const auto grid = run({"grid", volume("KTLX19990503_235621.gz"), "--moment", "SRV",
+                           "--spacing-km", "4", "-o", out("a.nc")});
+    EXPECT_EQ(grid.status, 0) << grid.err;
+    EXPECT_THAT(grid.out, HasSubstr("note: storm motion 22"));
+    EXPECT_THAT(grid.out, HasSubstr("right mover of the wind profile"));
 }
 
 TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {
@@ -178,6 +209,8 @@ TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
                 HasSubstr("leave out --elevation"));
     EXPECT_THAT(refused({"--product", "ppi", "--all-elevations", "--repeats"}),
                 HasSubstr("--repeats shows the sweeps of one elevation"));
+    EXPECT_THAT(refused({"--product", "composite", "--moment", "SRV", "--storm-motion", "240/15"}),
+                HasSubstr("--storm-motion is for frames of files and for a ppi"));
     EXPECT_THAT(refused({"--product", "ppi", "--interval", "60"}), HasSubstr("--interval"));
     EXPECT_THAT(refused({"--product", "ppi", "--frames", "50"}), HasSubstr("--frames"));
 }
