@@ -213,6 +213,11 @@ Domain read_domain(TomlTable& table) {
     read_place(table, domain.spec);
     if (const auto levels_m = read_levels_m(table)) domain.spec.levels_m = *levels_m;
     if (auto moments = read_moments(table, "moments")) domain.moments = std::move(*moments);
+    for (const level2::Moment moment : domain.moments) {
+        if (level2::facts_of(moment).is_derived)
+            table.complain("moments", fmt::format("{} is made for single stations, not for mosaics",
+                                                  level2::moment_name(moment)));
+    }
     read_stations(table, domain);
     read_frames(table, domain);
     if (const Status valid = grid::validate(domain.spec); !valid) {

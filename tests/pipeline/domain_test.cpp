@@ -141,6 +141,8 @@ TEST(Domain, WhatMakesNoSenseIsNamed) {
     EXPECT_THAT(complaint(good + "levels_km = \"1:2\"\n"), HasSubstr("BOTTOM:TOP:STEP"));
     EXPECT_THAT(complaint(good + "levels_km = [2, 1]\n"), HasSubstr("level"));
     EXPECT_THAT(complaint(good + "moments = [\"DBZ\"]\n"), HasSubstr("not a moment"));
+    EXPECT_THAT(complaint(good + "moments = [\"REF\", \"SRV\"]\n"),
+                HasSubstr("SRV is made for single stations"));
     EXPECT_THAT(complaint(good + "moments = []\n"), HasSubstr("at least one moment"));
     EXPECT_THAT(complaint(good + "stations = [\"ktlx\"]\n"), HasSubstr("four capital"));
     EXPECT_THAT(complaint(good + "overlap = \"min\"\n"), HasSubstr("maximum"));
