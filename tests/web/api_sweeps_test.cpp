@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -72,6 +73,18 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     EXPECT_EQ(chosen["REF"], (std::vector<int>{0, 2, 4, 5, 6}));
     EXPECT_EQ(chosen["VEL"], (std::vector<int>{1, 3, 4, 5, 6}));
     EXPECT_EQ(chosen["ZDR"], (std::vector<int>{0, 2, 4, 5, 6}));
+}
+
+TEST(ApiSweeps, GatesOfADerivedMomentComeOrAReasonDoes) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    OpenDoors doors(volumes);
+    const std::string sweep = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps/1/";
+    const Answer dealiased = doors.get(sweep + "VELD");
+    EXPECT_EQ(dealiased.status, 200U) << body_of(dealiased);
+    const Answer relative = doors.get(sweep + "SRV");
+    EXPECT_EQ(relative.status, 404U);
+    EXPECT_THAT(body_of(relative), ::testing::HasSubstr("gives no storm motion: the highest wind"));
 }
 
 // 2026-11-28: a volume that came as chunks was decoded once, so its list never got later sweeps.
