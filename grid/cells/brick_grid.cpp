@@ -68,14 +68,14 @@ class BrickReader {
         }
     }
 
-    // Copies the states; ambiguous (4) becomes code 3. Returns true if one of them is a value (3).
+    // Copies the states; ambiguous (5) becomes code 3. Returns true if one of them is a value (3).
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
         for (int z = 0; z < count; ++z) {
             const auto state = static_cast<std::uint8_t>(status[z]);
             largest |= static_cast<std::uint8_t>(state & (state >> 1));
-            to[z] = static_cast<std::uint8_t>(state - (state >> 2));
+            to[z] = static_cast<std::uint8_t>(state - 2 * (state >> 2));
         }
         return largest != 0;
     }

@@ -229,6 +229,7 @@ float InstantBrick::weight_of_after(std::size_t cell) const {
 }
 
 std::uint16_t InstantBrick::code_of(const CellResult& cell) const {
+    if (cell.status == CellStatus::ambiguous) return first_value_code;
     if (cell.status != CellStatus::value) return static_cast<std::uint16_t>(cell.status);
     return clamped_code(cell.value, maker_.ends_[0].timed.view.quantization);
 }

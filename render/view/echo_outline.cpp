@@ -28,7 +28,8 @@ class EchoOutline::Reader {
             codes_[k] = moment == level2::Moment::ref ? code_of(thresholds_dbz[k])
                                                       : std::numeric_limits<int>::max();
         }
-        top_code_ = moment == level2::Moment::ref ? code_of(top_dbz) : grid::first_value_code;
+        top_code_ =
+            moment == level2::Moment::ref ? code_of(top_dbz) : view.quantization.first_code();
     }
     void read(int bx, int by, std::vector<Tile>& tiles, int tiles_up) const {
         for (int x = bx * grid::brick_edge; x < (bx + 1) * grid::brick_edge; x += column_step) {
@@ -55,11 +56,11 @@ class EchoOutline::Reader {
             for (int z = bz * grid::brick_edge; z < end; ++z) {
                 const int code = view_.code_at(column + view_.offset_z(z));
                 largest = std::max(largest, code);
-                if (code >= grid::first_value_code) highest = z;
+                if (code >= view_.quantization.first_code()) highest = z;
                 if (code >= top_code_) top = z;
             }
         }
-        if (largest < grid::first_value_code) return;
+        if (largest < view_.quantization.first_code()) return;
         for (std::size_t k = 0; k < codes_.size(); ++k)
             tile.columns[k] += largest >= codes_[k] ? 1 : 0;
         ++tile.columns[all_columns];

@@ -153,6 +153,35 @@ TEST(Audit, VelocitiesDifferByTheShorterWayRound) {
     EXPECT_NEAR(row.rms, 2, 1e-4);
 }
 
+// A quarter of the gates is ambiguous. Their cells are ambiguous, too, and the mean velocity around
+// them stays 24 m/s.
+TEST(Audit, AmbiguousGatesAreCountedAndEnterNoValue) {
+    SweepPlan plan;
+    plan.moment = level2::Moment::veld;
+    plan.code = [](int radial, int) {
+        return radial < 90 ? std::uint16_t{2} : ref_code(24);  // code 2 is ambiguous
+    };
+    const level2::Volume volume = make_volume(plans_at({0.5, 1.5, 2.5, 3.5}, plan));
+    const auto geometry = make_column_geometry(site, small_spec());
+    const GridderOptions options = of(level2::Moment::veld);
+    const auto made = make_grid(volume, site, **geometry, options);
+    ASSERT_TRUE(made);
+    const BrickGrid grid = BrickGrid::from(*made, default_quantization(level2::Moment::veld));
+    const auto found = audit(grid.view(), volume, site, options);
+    ASSERT_TRUE(found);
+    const auto at = [&](CellStatus gate, CellStatus cell) {
+        return found->states[static_cast<std::size_t>(gate)][static_cast<std::size_t>(cell)];
+    };
+    const auto ambiguous = at(CellStatus::ambiguous, CellStatus::ambiguous);
+    EXPECT_GT(ambiguous, 500U);
+    EXPECT_LT(at(CellStatus::ambiguous, CellStatus::value), ambiguous / 20) << "at the borders";
+    EXPECT_GT(at(CellStatus::value, CellStatus::value), 2 * ambiguous);
+    const AuditRow row = total(found);
+    EXPECT_GT(row.same_status, ambiguous);
+    EXPECT_EQ(row.mean, 0);
+    EXPECT_EQ(row.rms, 0);
+}
+
 TEST(Audit, WhatItCannotDoIsAnError) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume volume = observed();

@@ -23,21 +23,28 @@ Grid grid_of(int nx, int ny, int nz, CellStatus status) {
 }
 
 // Returns a grid with three regions along x, so that every kind of brick occurs: uniform, states
-// only, values.
-Grid mixed_grid(float least, float largest) {
+// only, values. With `has_ambiguous`, two of the uniform bricks are ambiguous.
+Grid mixed_grid(float least, float largest, bool has_ambiguous = false) {
     Grid grid = grid_of(37, 20, 19, CellStatus::not_seen);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> value(least, largest);
-    std::uniform_int_distribution<int> status(0, 3);
+    std::uniform_int_distribution<int> status(0, has_ambiguous ? 4 : 3);
     for (int iy = 0; iy < grid.spec.ny; ++iy) {
         for (int ix = 16; ix < grid.spec.nx; ++ix) {
             for (int iz = 0; iz < grid.spec.nz(); ++iz) {
                 const std::size_t cell = grid.spec.index(ix, iy, iz);
                 int drawn = status(random);
                 if (ix < 32) drawn = std::min(drawn, 2);
-                grid.status[cell] = static_cast<CellStatus>(drawn);
+                grid.status[cell] =
+                    drawn == 4 ? CellStatus::ambiguous : static_cast<CellStatus>(drawn);
                 if (drawn == 3) grid.values[cell] = value(random);
             }
+        }
+    }
+    for (int iy = brick_edge; has_ambiguous && iy < grid.spec.ny; ++iy) {
+        for (int ix = 0; ix < brick_edge; ++ix) {
+            for (int iz = 0; iz < grid.spec.nz(); ++iz)
+                grid.status[grid.spec.index(ix, iy, iz)] = CellStatus::ambiguous;
         }
     }
     return grid;
@@ -58,6 +65,22 @@ void expect_same_within_half_a_step(const Grid& grid, const Quantization& quanti
 TEST(BrickGrid, GivesBackEveryStateAndValue) {
     expect_same_within_half_a_step(mixed_grid(-32, 94), {1, -32, 0.5F});
     expect_same_within_half_a_step(mixed_grid(-250, 250), {2, -256, 0.25F});
+    expect_same_within_half_a_step(mixed_grid(-31.5F, 94, true), {1, -32, 0.5F, true});
+    expect_same_within_half_a_step(mixed_grid(-320, 320, true),
+                                   default_quantization(level2::Moment::veld));
+}
+
+// On 2026-11-29, ambiguous cells had code 4, which is the velocity -1023.75 m/s.
+TEST(BrickGrid, AmbiguousCellsHaveTheCodeBelowAllValues) {
+    for (const Quantization& quantization : {Quantization{1, -32, 0.5F, true}, {2, -32, 1, true}}) {
+        const BrickGrid bricks =
+            BrickGrid::from(grid_of(16, 16, 16, CellStatus::ambiguous), quantization);
+        const BrickEntry& brick = bricks.view().bricks[0];
+        EXPECT_EQ(brick.kind, BrickKind::stored);
+        EXPECT_EQ(brick.min_code, first_value_code);
+        EXPECT_EQ(brick.max_code, first_value_code);
+        EXPECT_EQ(bricks.view().status(3, 4, 5), CellStatus::ambiguous);
+    }
 }
 
 TEST(BrickGrid, HoldsEveryKindOfBrick) {
@@ -199,6 +222,10 @@ TEST(BrickGrid, ValuesBeyondTheCodesAreClampedAndCounted) {
     EXPECT_EQ(bricks.view().value(0, 0, 0), -32);
     EXPECT_EQ(bricks.view().value(1, 0, 0), 94);
     EXPECT_EQ(bricks.view().value(2, 0, 0), -32);
+    const BrickGrid derived = BrickGrid::from(grid, {1, -32, 0.5F, true});
+    EXPECT_EQ(derived.clamped_count(), 4U);
+    EXPECT_EQ(to_dense(derived.view()).status, grid.status) << "no value becomes ambiguous";
+    EXPECT_EQ(derived.view().value(0, 0, 0), -31.5F);
 }
 
 }  // namespace

@@ -69,6 +69,13 @@ TEST(BrickView, ReadsEachKindOfBrick) {
     EXPECT_EQ(view.value(0, 0, 37), -10 + 0.5F * 297);
     EXPECT_EQ(view.status(0, 0, 38), CellStatus::range_folded);
     EXPECT_EQ(view.status(0, 0, 39), CellStatus::not_seen);
+
+    codes[2 * (2 * brick_cells + 7)] = std::byte{3};
+    EXPECT_EQ(view.status(0, 0, 39), CellStatus::value);
+    view.quantization.has_ambiguous = true;
+    EXPECT_EQ(view.status(0, 0, 39), CellStatus::ambiguous);
+    EXPECT_EQ(view.status(0, 0, 37), CellStatus::value);
+    EXPECT_EQ(view.value(0, 0, 37), -10 + 0.5F * 297) << "codes mean the same values";
 }
 
 TEST(Quantization, StepsAreNoCoarserThanTheRadarsOwn) {
@@ -82,19 +89,31 @@ TEST(Quantization, StepsAreNoCoarserThanTheRadarsOwn) {
          {Coding{level2::Moment::ref, 0.5, -32, 94}, Coding{level2::Moment::vel, 0.5, -127, 126},
           Coding{level2::Moment::sw, 0.5, 0, 63}, Coding{level2::Moment::zdr, 1 / 32.0, -13, 20},
           Coding{level2::Moment::phi, 0.3526, 0, 360},
-          Coding{level2::Moment::rho, 1 / 300.0, 0.2, 1.06}}) {
+          Coding{level2::Moment::rho, 1 / 300.0, 0.2, 1.06},
+          Coding{level2::Moment::veld, 0.5, -320, 320}}) {
         const Quantization q = default_quantization(radar.moment);
         EXPECT_LE(q.step, radar.step) << level2::moment_name(radar.moment);
-        EXPECT_LE(q.first_value, radar.least) << level2::moment_name(radar.moment);
+        EXPECT_LE(q.value_of(q.first_code()), radar.least) << level2::moment_name(radar.moment);
         EXPECT_GE(q.value_of(q.largest_code()), radar.largest) << level2::moment_name(radar.moment);
     }
 }
 
 TEST(CellStatus, NamesDiffer) {
     std::set<std::string_view> names;
-    for (int status = 0; status < 4; ++status)
+    for (std::size_t status = 0; status < cell_status_count; ++status)
         names.insert(cell_status_name(static_cast<CellStatus>(status)));
-    EXPECT_EQ(names.size(), 4U);
+    EXPECT_EQ(names.size(), cell_status_count);
+}
+
+TEST(CellStatus, OnlyCellsOfDerivedMomentsAreAmbiguous) {
+    const std::vector<CellStatus> measured = {CellStatus::not_seen, CellStatus::no_echo,
+                                              CellStatus::range_folded, CellStatus::value};
+    std::vector<CellStatus> derived = measured;
+    derived.push_back(CellStatus::ambiguous);
+    for (const level2::MomentFacts& facts : level2::moment_facts) {
+        EXPECT_EQ(states_of(facts.moment), facts.is_derived ? derived : measured) << facts.name;
+        EXPECT_EQ(default_quantization(facts.moment).has_ambiguous, facts.is_derived) << facts.name;
+    }
 }
 
 }  // namespace

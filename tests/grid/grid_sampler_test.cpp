@@ -68,8 +68,9 @@ TEST(GridSampler, ReadsEveryKindOfBrickAsTheViewDoes) {
         const std::size_t ix = i / 3 % 20;
         if (ix >= 16) grid.status[i] = i % 3 == 0 ? CellStatus::no_echo : CellStatus::not_seen;
         if (ix < 16 && i % 7 == 0) grid.status[i] = CellStatus::range_folded;
+        if (ix < 16 && i % 11 == 0) grid.status[i] = CellStatus::ambiguous;
     }
-    const BrickGrid bricks = BrickGrid::from(grid, {});
+    const BrickGrid bricks = BrickGrid::from(grid, {1, -32, 0.5F, true});
     const BrickView view = bricks.view();
     const GridSampler sampler(view);
     GridSampler::Corners corners;

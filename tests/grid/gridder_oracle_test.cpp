@@ -29,7 +29,7 @@ constexpr double weight_accuracy = 2e-3;
 struct Tally {
     int columns = 0, doubtful_columns = 0;
     int cells = 0, doubtful_cells = 0;
-    std::array<int, 4> states{};
+    std::array<int, cell_status_count> states{};
     std::vector<double> differences;
 };
 
@@ -209,9 +209,11 @@ level2::Volume scattered_volume(level2::Moment moment) {
     plan.gate_spacing_m = 2000;
     plan.radials = 300;  // a gap of 60 degrees
     plan.first_azimuth_deg = 200.5;
-    plan.code = [&random](int, int) {
+    const unsigned first_value = level2::facts_of(moment).first_valid_code;
+    plan.code = [&random, first_value](int, int) {
         const auto drawn = random() % 6;
-        return static_cast<std::uint16_t>(drawn < 2 ? drawn : 2 + random() % 200);
+        return static_cast<std::uint16_t>(drawn < first_value ? drawn
+                                                              : first_value + random() % 200);
     };
     return make_volume(plans_at({-0.2, 0.5, 1.4, 2.4, 4.3, 9.9, 19.5}, plan));
 }
@@ -219,10 +221,11 @@ level2::Volume scattered_volume(level2::Moment moment) {
 TEST(GridderOracle, ScatteredStates) {
     const SitePosition site{"XXXX", 44, 11, 300};
     GridSpec spec = square_spec(44, 11, 130, 4100);
-    for (const level2::Moment moment : {level2::Moment::ref, level2::Moment::rho}) {
+    for (const level2::Moment moment :
+         {level2::Moment::ref, level2::Moment::rho, level2::Moment::veld}) {
         const Tally tally = compare(scattered_volume(moment), site, spec, {moment, {}, 3});
-        for (const int count : tally.states)
-            EXPECT_GT(count, 500);
+        for (const CellStatus state : states_of(moment))
+            EXPECT_GT(tally.states[static_cast<std::size_t>(state)], 500);
     }
 }
 
@@ -254,8 +257,8 @@ TEST(GridderOracle, EveryProjectionOffItsSiteAndAcrossTheAntimeridian) {
     const Tally cone = compare(volume, site, spec, {level2::Moment::ref, {}, 3});
     const Tally area_cone = compare(volume, site, spec, area);
     for (const Tally& tally : {degrees, cone}) {
-        for (const int count : tally.states)
-            EXPECT_GT(count, 200);
+        for (const CellStatus state : states_of(level2::Moment::ref))
+            EXPECT_GT(tally.states[static_cast<std::size_t>(state)], 200);
     }
     for (Tally tally : {area_degrees, area_cone}) {
         std::sort(tally.differences.begin(), tally.differences.end());

@@ -1,5 +1,5 @@
 // Tests each case of the status rule (docs/geometry.md), and means on a circle. In the messages, v,
-// n, f and u are the weights of values, no echo, range folded and not seen.
+// n, f, a and u are the weights of values, no echo, range folded, ambiguous and not seen.
 #include "grid/sweep/mixture.h"
 
 #include <random>
@@ -12,6 +12,7 @@ namespace {
 
 const Sample unseen{};
 const Sample folded{CellStatus::range_folded, 0, 0, 0};
+const Sample ambiguous{CellStatus::ambiguous, 0, 0, 0};
 Sample valued(float value, float half_period = 0) {
     return {CellStatus::value, value, 0, half_period};
 }
@@ -65,10 +66,40 @@ TEST(Blend, FoldedNeedsTheLargestShare) {
     EXPECT_EQ(mix(folded, unseen, 0.51F).status, CellStatus::not_seen);
 }
 
+TEST(Blend, AmbiguousNeedsTheLargestShare) {
+    const auto mixed = [](const Sample& a, const Sample& b, float weight_b) {
+        return mix(a, b, weight_b, Blending::values_only);
+    };
+    EXPECT_EQ(mixed(ambiguous, valued(20), 0.4F).status, CellStatus::ambiguous);
+    EXPECT_EQ(mixed(ambiguous, valued(20), 0.5F).status, CellStatus::value);
+    EXPECT_FLOAT_EQ(mixed(ambiguous, valued(20), 0.6F).value, 20);
+    EXPECT_EQ(mixed(ambiguous, quiet(0), 0.4F).status, CellStatus::ambiguous);
+    EXPECT_EQ(mixed(ambiguous, quiet(0), 0.5F).status, CellStatus::no_echo);
+    EXPECT_EQ(mixed(ambiguous, unseen, 0.5F).status, CellStatus::ambiguous);
+    EXPECT_EQ(mixed(ambiguous, unseen, 0.51F).status, CellStatus::not_seen);
+    EXPECT_EQ(mixed(ambiguous, folded, 0.4F).status, CellStatus::ambiguous);
+    EXPECT_EQ(mixed(ambiguous, folded, 0.5F).status, CellStatus::range_folded);
+}
+
+// Echo of unknown velocity outweighs values if f + a is the largest, even if neither f nor a is.
+TEST(Mixture, FoldedAndAmbiguousCountTogether) {
+    Mixture mixture;
+    mixture.add(valued(20), 4, Blending::values_only);
+    mixture.add(folded, 2, Blending::values_only);
+    mixture.add(ambiguous, 3, Blending::values_only);
+    EXPECT_EQ(mixture.result(Blending::values_only).status, CellStatus::ambiguous);
+    mixture.add_counted(CellStatus::range_folded, 2, 0, Blending::values_only);
+    EXPECT_EQ(mixture.result(Blending::values_only).status, CellStatus::range_folded);
+    mixture.add(valued(10), 4, Blending::values_only);
+    EXPECT_FLOAT_EQ(mixture.result(Blending::values_only).value, 15);
+    EXPECT_FLOAT_EQ(mixture.weight(), 15);
+}
+
 TEST(Blend, EqualStatesStay) {
     for (const float weight : {0.0F, 0.3F, 0.5F, 1.0F}) {
         EXPECT_EQ(mix(unseen, unseen, weight).status, CellStatus::not_seen);
         EXPECT_EQ(mix(folded, folded, weight).status, CellStatus::range_folded);
+        EXPECT_EQ(mix(ambiguous, ambiguous, weight).status, CellStatus::ambiguous);
         EXPECT_EQ(mix(quiet(0), quiet(5), weight).status, CellStatus::no_echo);
     }
 }
@@ -102,6 +133,7 @@ TEST(BlendingOf, EachMoment) {
     EXPECT_EQ(blending_of(level2::Moment::vel), Blending::nyquist_circle);
     EXPECT_EQ(blending_of(level2::Moment::phi), Blending::phase_circle);
     EXPECT_EQ(blending_of(level2::Moment::rho), Blending::values_only);
+    EXPECT_EQ(blending_of(level2::Moment::veld), Blending::values_only) << "VELD does not wrap";
 }
 
 TEST(Mixture, AnEmptyOneIsNotSeen) {
@@ -121,7 +153,8 @@ TEST(Mixture, WeightsNeedNotSumToOne) {
 TEST(Mixture, OfMixturesIsThatOfTheirSamples) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> share(0, 1);
-    const std::vector<Sample> kinds = {unseen, folded, valued(10), valued(33), quiet(-5)};
+    const std::vector<Sample> kinds = {unseen,     folded,     ambiguous,
+                                       valued(10), valued(33), quiet(-5)};
     for (int trial = 0; trial < 2000; ++trial) {
         const Blending blending = Blending::with_detection_limit;
         Mixture flat;

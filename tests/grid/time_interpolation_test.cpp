@@ -133,6 +133,39 @@ TEST(GridAt, ACellThatOneEndHasNotSeenIsTheOtherOnes) {
     EXPECT_EQ(grid.status[corner], before.status[corner]);
 }
 
+// The velocity of the later volume is 20 m/s everywhere. The earlier volume is ambiguous.
+TEST(GridAt, AmbiguousCellsAreMixedByTheRuleAndEnterNoValue) {
+    const GridSpec spec = spec_of(40);
+    const auto geometry = make_column_geometry({"KTLX", 35, -97, 300}, spec);
+    const auto bricks_of = [&](CellStatus status) {
+        Grid grid;
+        grid.spec = spec;
+        grid.values.assign(spec.cell_count(), 20);
+        grid.status.assign(spec.cell_count(), status);
+        return BrickGrid::from(grid, default_quantization(level2::Moment::veld));
+    };
+    const BrickGrid before = bricks_of(CellStatus::ambiguous), after = bricks_of(CellStatus::value);
+    const MotionField motion({0.02F, 0.01F});
+    for (const double t_s : {0.0, 100.0, 200.0, 300.0}) {
+        for (const TimeMethod method :
+             {TimeMethod::nearest, TimeMethod::blend, TimeMethod::advected}) {
+            InstantOptions options = options_at(t_s, method, &motion);
+            options.moment = level2::Moment::veld;
+            const auto made = grid_at({before.view(), start}, {{after.view(), at_second(apart_s)}},
+                                      **geometry, options);
+            ASSERT_TRUE(made) << made.error().message;
+            const Grid grid = to_dense(made->view());
+            const std::size_t middle = spec.index(20, 20, 1);
+            ASSERT_EQ(grid.status[middle], t_s < 150 ? CellStatus::ambiguous : CellStatus::value)
+                << t_s << " " << time_method_name(method);
+            for (std::size_t cell = 0; cell < grid.status.size(); ++cell) {
+                if (grid.status[cell] != CellStatus::value) continue;
+                ASSERT_EQ(grid.values[cell], 20) << t_s << " " << time_method_name(method);
+            }
+        }
+    }
+}
+
 TEST(GridAt, WhatComesFromBeyondTheEdgeIsNotSeen) {
     const Pair pair({}, spec_of(), 50);
     const MotionField motion({0.1F, 0});  // 30 km in 300 s

@@ -276,21 +276,23 @@ TEST(ValuesBeyondAllReason, AreNeverInfiniteInZ) {
 
 struct Mixed {
     const char* what;
-    std::uint16_t low, high;  // codes; 2 means not seen
+    std::uint16_t low, high;  // codes; 255 means not seen
     double share;             // of the upper sweep
     CellStatus expected;
 };
-constexpr std::uint16_t unseen_code = 2;
+constexpr std::uint16_t unseen_code = 255;
+constexpr std::uint16_t ambiguous = 2;  // in VELD alone
 const std::uint16_t echo = ref_code(30);
 
 // Returns pairs of states, with shares below and above one half, and the result by the rule in
 // docs/geometry.md.
-std::vector<Mixed> mixtures() {
+std::vector<Mixed> mixtures_of(level2::Moment moment) {
     const auto value = CellStatus::value;
     const auto quiet = CellStatus::no_echo;
     const auto fold = CellStatus::range_folded;
     const auto unseen = CellStatus::not_seen;
-    return {
+    const auto unsure = CellStatus::ambiguous;
+    std::vector<Mixed> mixtures = {
         {"value, value", echo, echo, 0.4, value},
         {"value, some no echo", echo, below_threshold, 0.4, value},
         {"value, more no echo", echo, below_threshold, 0.6, quiet},
@@ -310,6 +312,38 @@ std::vector<Mixed> mixtures() {
         {"not seen, more value", unseen_code, echo, 0.6, value},
         {"not seen, not seen", unseen_code, unseen_code, 0.4, unseen},
     };
+    if (!level2::facts_of(moment).is_derived) return mixtures;
+    for (const Mixed& mixed : {
+             Mixed{"value, some ambiguous", echo, ambiguous, 0.4, value},
+             Mixed{"value, more ambiguous", echo, ambiguous, 0.6, unsure},
+             Mixed{"ambiguous, more value", ambiguous, echo, 0.6, value},
+             Mixed{"no echo, some ambiguous", below_threshold, ambiguous, 0.4, quiet},
+             Mixed{"no echo, more ambiguous", below_threshold, ambiguous, 0.6, unsure},
+             Mixed{"folded, some ambiguous", range_folded, ambiguous, 0.4, fold},
+             Mixed{"folded, more ambiguous", range_folded, ambiguous, 0.6, unsure},
+             Mixed{"ambiguous, ambiguous", ambiguous, ambiguous, 0.4, unsure},
+             Mixed{"ambiguous, some not seen", ambiguous, unseen_code, 0.4, unsure},
+             Mixed{"ambiguous, more not seen", ambiguous, unseen_code, 0.6, unseen},
+         })
+        mixtures.push_back(mixed);
+    return mixtures;
+}
+
+// Makes the sweeps hold another moment, with the same codes.
+void rename_moment(GridCase& given, level2::Moment moment) {
+    given.moment = moment;
+    for (level2::Sweep& sweep : given.volume.sweeps)
+        sweep.moments[0].moment = moment;
+}
+
+// Expects the cell of a mixture to have the status by the rule. In a derived moment, only the gates
+// with a value may enter the value.
+void expect_by_the_rule(const Mixed& mixed, const GridCase& given, const Method& method) {
+    const Grid grid = grid_of(given, method);
+    ASSERT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+    if (level2::facts_of(given.moment).is_derived && mixed.expected == CellStatus::value) {
+        EXPECT_FLOAT_EQ(grid.values[0], 30) << mixed.what << ", " << label(method);
+    }
 }
 
 // Cuts the radials off 10 km before the column, because a place beyond the last gate of a radial is
@@ -319,61 +353,62 @@ void hide(level2::Sweep& sweep) {
         count = 90;
 }
 
-TEST(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
-    for (const Mixed& mixed : mixtures()) {
+class StatusRule : public ::testing::TestWithParam<level2::Moment> {};
+
+TEST_P(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
+    for (const Mixed& mixed : mixtures_of(GetParam())) {
         Pair pair = pair_of(all_of(mixed.low), all_of(mixed.high));
+        rename_moment(pair.given, GetParam());
         if (mixed.low == unseen_code) hide(pair.given.volume.sweeps[0]);
         if (mixed.high == unseen_code) hide(pair.given.volume.sweeps[1]);
         pair.given.spec.levels_m = {pair.low_m + mixed.share * (pair.high_m - pair.low_m)};
-        for (const Method& method : all_methods()) {
-            const Grid grid = grid_of(pair.given, method);
-            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
-        }
+        for (const Method& method : all_methods(GetParam()))
+            expect_by_the_rule(mixed, pair.given, method);
     }
 }
 
 // The states are side by side within each sweep, so the rule mixes the two radials about a point,
 // or all gates of an area. Radials up to number 90 have one state, and all others the other state.
-TEST(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
-    for (const Mixed& mixed : mixtures()) {
+TEST_P(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
+    for (const Mixed& mixed : mixtures_of(GetParam())) {
         if (mixed.low == unseen_code || mixed.high == unseen_code) continue;
         const Code two = [&mixed](int radial, int) {
             return radial <= 90 ? mixed.low : mixed.high;
         };
         Pair pair = pair_of(two, two);
-        // The border is at 91 degrees; the center of the cell is slightly on either side of it.
-        const double azimuth_deg = 90.5 + mixed.share;
+        rename_moment(pair.given, GetParam());
         const double arc_m =
             BeamGeometry(plains.latitude_deg, plains.altitude_m).forward({100e3, 1}).arc_m;
-        const GeoPoint there =
-            SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({azimuth_deg, arc_m});
-        pair.given.spec.center_latitude_deg = there.latitude_deg;
-        pair.given.spec.center_longitude_deg = there.longitude_deg;
+        const auto move_to = [&](double azimuth_deg) {
+            const GeoPoint there =
+                SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({azimuth_deg, arc_m});
+            pair.given.spec.center_latitude_deg = there.latitude_deg;
+            pair.given.spec.center_longitude_deg = there.longitude_deg;
+        };
+        // The border is at 91 degrees; the center of the cell is slightly on either side of it.
+        move_to(90.5 + mixed.share);
         pair.given.spec.levels_m = {(pair.low_m + pair.high_m) / 2};
-        for (const Method& method : all_methods()) {
+        for (const Method& method : all_methods(GetParam())) {
             if (method.cell == CellExtent::area) continue;  // areas are tested below
-            const Grid grid = grid_of(pair.given, method);
-            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+            expect_by_the_rule(mixed, pair.given, method);
         }
         // A cell of 29 km has 16 or 17 radials. The center of the cell is 2 radials from the border
         // between the states.
         pair.given.spec.spacing_m = 29000;
-        const double shift_deg = mixed.share < 0.5 ? -2 : 2;
-        const GeoPoint wide =
-            SiteFrame(plains.latitude_deg, plains.longitude_deg).to_geo({91 + shift_deg, arc_m});
-        pair.given.spec.center_latitude_deg = wide.latitude_deg;
-        pair.given.spec.center_longitude_deg = wide.longitude_deg;
-        for (const Method& method : all_methods()) {
+        move_to(mixed.share < 0.5 ? 89 : 93);
+        for (const Method& method : all_methods(GetParam())) {
             if (method.cell != CellExtent::area) continue;
-            const Grid grid = grid_of(pair.given, method);
-            EXPECT_EQ(grid.status[0], mixed.expected) << mixed.what << ", " << label(method);
+            expect_by_the_rule(mixed, pair.given, method);
         }
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(Moments, StatusRule,
+                         ::testing::Values(level2::Moment::ref, level2::Moment::veld));
+
 // In the mean for a value, a gate of no echo counts with its weight, as a value at its detection
 // limit.
-TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
+TEST(NoEcho, EntersAtItsDetectionLimitByEveryMethod) {
     Pair pair = pair_of(all_of(echo), all_of(below_threshold));
     const double share = 0.35;
     pair.given.spec.levels_m = {pair.low_m + share * (pair.high_m - pair.low_m)};
@@ -389,6 +424,43 @@ TEST(StatusRule, NoEchoEntersAtItsDetectionLimitByEveryMethod) {
         ASSERT_EQ(grid.status[0], CellStatus::value) << label(method);
         EXPECT_NEAR(grid.values[0], expected, 0.2) << label(method);
     }
+}
+
+// ---- Patches of ambiguous gates
+
+double smooth_mps(double east_km, double north_km) {
+    return 30 + 20 * std::sin(east_km / 31) * std::sin(north_km / 37);
+}
+
+// Returns smooth velocities with patches of no echo, of range folding and of ambiguous gates.
+GridCase ambiguous_patches() {
+    SweepPlan plan = patchy_plan();
+    plan.moment = level2::Moment::veld;
+    plan.code = [](int radial, int gate) {
+        const double azimuth = (radial + 0.5) * M_PI / 180;
+        const double east_km = gate * std::sin(azimuth), north_km = gate * std::cos(azimuth);
+        if (std::sin(east_km / 13) * std::cos(north_km / 11) > 0.5) return ambiguous;
+        const std::uint16_t patch = patchy_code(radial + 0.5, 1000.0 * gate);
+        return patch < 2 ? patch : ref_code(smooth_mps(east_km, north_km));
+    };
+    GridCase given = about(plains, plans_at({0.5, 1.5, 2.5, 3.5, 5}, plan));
+    given.moment = level2::Moment::veld;
+    return given;
+}
+
+// Velocities differ by less than 5 m/s within 7 km, the reach of a cell and its gates, so a cell
+// that differs more from the velocity at its place holds a value that no gate around it has.
+TEST(AmbiguousPatches, KeepTheirPlacesAndInventNoVelocityByAnyMethod) {
+    const GridCase given = ambiguous_patches();
+    expect_sound_by_every_method(given, {}, [&](const Method& method, const Grid& grid) {
+        EXPECT_GT(std::ranges::count(grid.status, CellStatus::ambiguous), 1000) << label(method);
+        for_each_value(grid, [&](const PolarPoint& at, double value) {
+            const double azimuth = at.azimuth_deg * M_PI / 180, arc_km = at.arc_m / 1000;
+            ASSERT_NEAR(value, smooth_mps(arc_km * std::sin(azimuth), arc_km * std::cos(azimuth)),
+                        5)
+                << label(method) << " " << at.azimuth_deg << " " << at.arc_m;
+        });
+    });
 }
 
 }  // namespace
