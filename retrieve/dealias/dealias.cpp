@@ -176,6 +176,12 @@ void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiase
     }
 }
 
+void mark_certain(const VelocitySheet& sheet, SweepFolds& folds) {
+    const auto first = static_cast<std::ptrdiff_t>(sheet.first_radial) * sheet.gates;
+    std::fill_n(folds.ambiguous.begin() + first,
+                static_cast<std::ptrdiff_t>(sheet.radials) * sheet.gates, std::uint8_t{0});
+}
+
 // Returns fold numbers of 0 for all velocity moments. `ambiguous` holds for gates in no sheet.
 Dealiased empty_folds(const level2::Volume& volume, bool ambiguous) {
     Dealiased dealiased;
@@ -195,12 +201,21 @@ Dealiased empty_folds(const level2::Volume& volume, bool ambiguous) {
 }  // namespace
 
 Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
+    const bool is_wanted = rung != Dealiasing::off;
     if (rung == Dealiasing::automatic)
         rung = needs_dealiasing(volume) ? Dealiasing::anchored : Dealiasing::off;
-    Dealiased dealiased = empty_folds(volume, rung != Dealiasing::off);
+    Dealiased dealiased = empty_folds(volume, is_wanted);
     dealiased.rung = rung;
-    if (rung == Dealiasing::off) return dealiased;
+    if (!is_wanted) return dealiased;
+    std::map<std::pair<std::size_t, std::size_t>, SweepFolds*> by_moment;
+    for (SweepFolds& folds : dealiased.sweeps)
+        by_moment[{folds.sweep, folds.moment}] = &folds;
     std::vector<VelocitySheet> sheets = velocity_sheets(volume);
+    if (rung == Dealiasing::off) {
+        for (const VelocitySheet& sheet : sheets)
+            mark_certain(sheet, *by_moment.at({sheet.sweep, sheet.moment}));
+        return dealiased;
+    }
     FoldedWind wind;
     if (rung != Dealiasing::region) wind = fit_folded_wind(sheets);
     std::vector<SheetState> states;
@@ -220,9 +235,6 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
         if (rung == Dealiasing::anchored) mark_islands(wind, state);
         if (rung != Dealiasing::profile) mark_ambiguous(state);
     }
-    std::map<std::pair<std::size_t, std::size_t>, SweepFolds*> by_moment;
-    for (SweepFolds& folds : dealiased.sweeps)
-        by_moment[{folds.sweep, folds.moment}] = &folds;
     for (const SheetState& state : states) {
         count_jumps(state, dealiased);
         write_folds(state, *by_moment.at({state.sheet.sweep, state.sheet.moment}), dealiased);

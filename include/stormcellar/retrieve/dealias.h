@@ -35,7 +35,8 @@
 
 namespace stormcellar::retrieve {
 
-// `automatic` is `anchored`, or `off` if needs_dealiasing() finds no need.
+// `automatic` is `anchored`. If needs_dealiasing() finds no need, it is `off`, but gates of radials
+// without a usable Nyquist velocity are ambiguous.
 enum class Dealiasing : std::uint8_t { off, profile, region, anchored, automatic };
 
 // The words of options: off, profile, region, anchored, auto.
