@@ -57,8 +57,8 @@ struct GroundPatch {
 
 // Returns the color of a place of a field at a pixel of the whole picture. A value has the color of
 // the table, over plain ground if the color is translucent, and with dots if the value is "at
-// least". No echo and values below the table are plain ground, range folded has its own color, and
-// not seen is hatched.
+// least". No echo and values below the table are plain ground, range folded has its own color,
+// ambiguous is plain ground hatched in that color, and not seen is hatched in the theme's color.
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColorTable& table,
                              const GroundPatch& patch, const GroundLook& look);
 

@@ -110,13 +110,22 @@ struct StateClass {
     std::array<std::uint8_t, 3> color = {};
 };
 constexpr std::uint8_t at_least_code = 4;
-constexpr std::array state_classes{
+constexpr std::array all_state_classes{
     StateClass{0, "not seen", {96, 100, 108}},
     StateClass{1, "no echo", {232, 236, 242}},
     StateClass{2, "range folded", {119, 0, 125}},
     StateClass{3, "value", {47, 196, 98}},
     StateClass{at_least_code, "value or more", {255, 160, 42}},
+    StateClass{5, "ambiguous", {187, 128, 190}},
 };
+static_assert(all_state_classes.back().code ==
+              static_cast<std::uint8_t>(grid::CellStatus::ambiguous));
+
+// Returns the classes of a moment's pixels. Their codes count up from 0.
+std::span<const StateClass> state_classes(level2::Moment moment) {
+    const bool is_derived = level2::facts_of(moment).is_derived;
+    return std::span(all_state_classes).first(all_state_classes.size() - (is_derived ? 0 : 1));
+}
 
 std::uint8_t state_of(const FlatField& field, std::size_t place) {
     const bool at_least = !field.at_least.empty() && field.at_least[place] != 0 &&
@@ -124,9 +133,9 @@ std::uint8_t state_of(const FlatField& field, std::size_t place) {
     return at_least ? at_least_code : static_cast<std::uint8_t>(field.status[place]);
 }
 
-std::string states_text() {
+std::string states_text(level2::Moment moment) {
     std::string text;
-    for (const StateClass& one : state_classes)
+    for (const StateClass& one : state_classes(moment))
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", one.code, one.name);
     return text;
 }
@@ -205,7 +214,8 @@ std::string gdal_metadata(const StillMap& map, const StillOptions& options) {
             }
             break;
         case TiffContent::states:
-            items += fmt::format("  <Item name=\"STATES\">{}</Item>\n", states_text());
+            items +=
+                fmt::format("  <Item name=\"STATES\">{}</Item>\n", states_text(map.scene.moment));
             band("description", product_title(map.scene) + ", states");
             break;
         case TiffContent::colors:
@@ -223,7 +233,7 @@ TiffFacts facts_of_file(const StillMap& map, const StillOptions& options) {
             break;
         case TiffContent::states:
             facts.samples = TiffSamples::palette;
-            for (const StateClass& one : state_classes)
+            for (const StateClass& one : state_classes(map.scene.moment))
                 facts.palette.push_back(one.color);
             break;
         case TiffContent::colors:

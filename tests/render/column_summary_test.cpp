@@ -16,6 +16,7 @@ ColumnSummary slow_summary(const grid::BrickView& view, int ix, int iy) {
         if (status != CellStatus::not_seen) column.lowest_seen = static_cast<std::uint16_t>(iz);
         if (status == CellStatus::no_echo) column.has_no_echo = true;
         if (status == CellStatus::range_folded) column.has_range_folded = true;
+        if (status == CellStatus::ambiguous) column.has_ambiguous = true;
         if (status == CellStatus::value) {
             column.max_code =
                 std::max(column.max_code,
@@ -37,6 +38,7 @@ void expect_same_as_slow(const grid::BrickGrid& bricks) {
             ASSERT_EQ(columns[i].max_code, slow.max_code);
             ASSERT_EQ(columns[i].has_no_echo, slow.has_no_echo);
             ASSERT_EQ(columns[i].has_range_folded, slow.has_range_folded);
+            ASSERT_EQ(columns[i].has_ambiguous, slow.has_ambiguous);
         }
     }
 }
@@ -50,15 +52,34 @@ TEST(ColumnSummary, AgreesWithASlowSearchOverAStorm) {
 // The grid has bricks of one state, bricks of states without codes, and bricks of codes, with every
 // mixture of states in a column.
 TEST(ColumnSummary, AgreesWithASlowSearchOverEveryMixtureOfStates) {
-    const auto grid = make_grid_of(small_spec(49, 20), [](int ix, int iy, int iz) -> Cell {
-        if (ix < 16) return {CellStatus::no_echo, 0};
-        const unsigned hash = static_cast<unsigned>(ix) * 73856093U ^
-                              static_cast<unsigned>(iy) * 19349663U ^
-                              static_cast<unsigned>(iz / 3) * 83492791U;
-        const unsigned state = (hash >> 3) % (iy < 32 ? 3 : 4);
-        return {static_cast<CellStatus>(state), static_cast<float>(hash % 70)};
+    for (const bool has_ambiguous : {false, true}) {
+        const auto grid = make_grid_of(small_spec(49, 20), [&](int ix, int iy, int iz) -> Cell {
+            if (ix < 16) return {CellStatus::no_echo, 0};
+            const unsigned hash = static_cast<unsigned>(ix) * 73856093U ^
+                                  static_cast<unsigned>(iy) * 19349663U ^
+                                  static_cast<unsigned>(iz / 3) * 83492791U;
+            const unsigned state = (hash >> 3) % (iy < 16 ? 3 : has_ambiguous ? 5 : 4);
+            if (state == 4) return {CellStatus::ambiguous, 0};
+            return {static_cast<CellStatus>(state), static_cast<float>(hash % 70)};
+        });
+        expect_same_as_slow(bricks_of(grid, 1, has_ambiguous));
+        expect_same_as_slow(bricks_of(grid, 2, has_ambiguous));
+    }
+}
+
+// The largest code of a column of ambiguous cells is 3, which is no value.
+TEST(ColumnSummary, OfAmbiguousCellsHasNoMaximum) {
+    const auto grid = make_grid_of(small_spec(16, 16), [](int, int, int) {
+        return Cell{CellStatus::ambiguous, 0};
     });
-    expect_same_as_slow(bricks_of(grid));
+    for (const int code_bytes : {1, 2}) {
+        const auto bricks = bricks_of(grid, code_bytes, true);
+        for (const ColumnSummary& column : summarize_columns(bricks.view(), 1)) {
+            ASSERT_EQ(column.max_code, 0);
+            ASSERT_EQ(column.status(), CellStatus::ambiguous);
+            ASSERT_EQ(column.lowest_seen, 0) << "ambiguous echo was seen";
+        }
+    }
 }
 
 TEST(ColumnSummary, StatusOfTheMaximum) {
@@ -68,6 +89,8 @@ TEST(ColumnSummary, StatusOfTheMaximum) {
     EXPECT_EQ(column.status(), CellStatus::no_echo);
     column.has_range_folded = true;
     EXPECT_EQ(column.status(), CellStatus::range_folded) << "folded echo may hide any state";
+    column.has_ambiguous = true;
+    EXPECT_EQ(column.status(), CellStatus::ambiguous);
     column.max_code = 3;
     EXPECT_EQ(column.status(), CellStatus::value);
 }

@@ -104,6 +104,26 @@ TEST(FittedCamera, WideEchoIsSeenFromAbove) {
     EXPECT_GT(fitted.opacity, 1.5);
 }
 
+// On 2026-11-29, the camera also looked at ambiguous cells, which the volume does not show.
+TEST(FittedCamera, LooksAtNoAmbiguousCells) {
+    const grid::GridSpec spec = small_spec(200, 32);
+    const auto fitted = [&](grid::CellStatus elsewhere) {
+        const auto grid = make_grid_of(spec, [&](int ix, int iy, int iz) {
+            const Cell cell = storm_at(ix, iy, iz, 40, 60, 15);
+            return cell.status == grid::CellStatus::value ? cell : Cell{elsewhere, 0};
+        });
+        const auto bricks = bricks_of(grid, 1, true);
+        return fit_view(EchoOutline(bricks.view(), Moment::veld), {}, 640, 480);
+    };
+    const FittedView clear = fitted(grid::CellStatus::no_echo);
+    const FittedView unclear = fitted(grid::CellStatus::ambiguous);
+    EXPECT_TRUE(clear.has_echo);
+    EXPECT_EQ(unclear.camera.azimuth_deg, clear.camera.azimuth_deg);
+    EXPECT_EQ(unclear.camera.tilt_deg, clear.camera.tilt_deg);
+    EXPECT_EQ(unclear.camera.zoom, clear.camera.zoom);
+    EXPECT_EQ(unclear.vertical_exaggeration, clear.vertical_exaggeration);
+}
+
 // These cases could lead to a division by zero: no echo, one cell, nothing seen, one level.
 TEST(FittedCamera, IsSaneForWhatIsHardlyThere) {
     const auto check = [](const grid::BrickGrid& bricks, bool has_echo) {

@@ -19,17 +19,20 @@ using level2::Moment;
 constexpr Cell unseen = {CellStatus::not_seen, 0};
 constexpr Cell quiet = {CellStatus::no_echo, 0};
 constexpr Cell folded = {CellStatus::range_folded, 0};
+constexpr Cell unsure = {CellStatus::ambiguous, 0};
 
 // Returns one row of columns, with levels at 500, 1000 ... m. Each column lists its cells from the
 // lowest up; all other cells have no echo.
-grid::BrickGrid columns_of(const std::vector<std::vector<Cell>>& columns, int levels = 20) {
+grid::BrickGrid columns_of(const std::vector<std::vector<Cell>>& columns, int levels = 20,
+                           bool has_ambiguous = false) {
     grid::GridSpec spec = small_spec(static_cast<int>(columns.size()), levels);
     spec.ny = 1;
-    return bricks_of(make_grid_of(spec, [&](int ix, int, int iz) {
+    const auto grid = make_grid_of(spec, [&](int ix, int, int iz) {
         const auto& cells = columns[static_cast<std::size_t>(ix)];
         return static_cast<std::size_t>(iz) < cells.size() ? cells[static_cast<std::size_t>(iz)]
                                                            : quiet;
-    }));
+    });
+    return bricks_of(grid, 1, has_ambiguous);
 }
 
 std::vector<Cell> repeated(const Cell& cell, int count) {
@@ -37,9 +40,12 @@ std::vector<Cell> repeated(const Cell& cell, int count) {
 }
 
 TEST(ReadColumn, AgreesWithTheSlowView) {
-    const grid::Grid storm = storm_grid(small_spec(40, 37, 8000, 450));
+    grid::Grid storm = storm_grid(small_spec(40, 37, 8000, 450));
+    for (std::size_t cell = 0; cell < storm.status.size(); cell += 7) {
+        if (storm.status[cell] == CellStatus::value) storm.status[cell] = CellStatus::ambiguous;
+    }
     for (const int bytes : {1, 2}) {
-        const auto bricks = bricks_of(storm, bytes);
+        const auto bricks = bricks_of(storm, bytes, true);
         const grid::BrickView view = bricks.view();
         ColumnCells cells;
         for (int iy = 0; iy < 40; ++iy) {
@@ -76,16 +82,16 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
 // Checks the status rule (docs/geometry.md) for every pair of states, a third of the way between
 // two levels and in their middle.
 TEST(Cappi, MixesStatesByTheRule) {
-    const std::vector<Cell> kinds = {unseen, quiet, folded, valued(20)};
+    const std::vector<Cell> kinds = {unseen, quiet, folded, unsure, valued(20)};
     std::vector<std::vector<Cell>> columns;
     for (const Cell& lower : kinds) {
         for (const Cell& upper : kinds)
             columns.push_back({lower, upper});
     }
-    const auto bricks = columns_of(columns);
+    const auto bricks = columns_of(columns, 20, true);
     const double third_up = 500 + 500.0 / 3;
-    const auto near_lower = cappi_field(bricks.view(), Moment::ref, third_up, 1).value();
-    const auto half = cappi_field(bricks.view(), Moment::ref, 750, 1).value();
+    const auto near_lower = cappi_field(bricks.view(), Moment::veld, third_up, 1).value();
+    const auto half = cappi_field(bricks.view(), Moment::veld, 750, 1).value();
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const CellStatus lower = columns[i][0].status;
         const CellStatus upper = columns[i][1].status;
@@ -100,6 +106,10 @@ TEST(Cappi, MixesStatesByTheRule) {
         }
         if (lower == CellStatus::value && upper == CellStatus::not_seen) wanted = lower;
         EXPECT_EQ(half.status[i], wanted) << i;
+        for (const FlatField* field : {&near_lower, &half}) {
+            if (field->status[i] != CellStatus::value) continue;
+            EXPECT_EQ(field->values[i], 20) << "no state enters a value";
+        }
     }
 }
 

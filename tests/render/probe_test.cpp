@@ -23,9 +23,10 @@ class ProbeTest : public ::testing::Test {
                                  if (iz < 1 || ix >= 90) return {CellStatus::not_seen, 0};
                                  if (ix == 30 && iy == 70) return valued(iz == 4 ? 45 : 20);
                                  if (ix == 60) return {CellStatus::range_folded, 0};
+                                 if (ix == 80) return {CellStatus::ambiguous, 0};
                                  return {CellStatus::no_echo, 0};
                              })),
-          bricks_(bricks_of(grid_)) {
+          bricks_(bricks_of(grid_, 1, true)) {
         scene_.product = Product::composite;
         scene_.labels = false;
         scene_.width = scene_.height = 520;  // 5 pixels for each cell, and a margin of 2 %
@@ -57,6 +58,7 @@ TEST_F(ProbeTest, OfAMapTellsTheColumnThatIsDrawnThere) {
     EXPECT_EQ(probe_text(*probe, {}), "45 dBZ");
     EXPECT_EQ(probe_text(*at(20, 20), {}), "no echo");
     EXPECT_EQ(probe_text(*at(60, 20), {}), "range folded");
+    EXPECT_EQ(probe_text(*at(80, 20), {}), "ambiguous");
     EXPECT_EQ(probe_text(*at(95, 20), {}), "not seen");
     EXPECT_FALSE(at(95, 20)->lowest_seen_m);
 }

@@ -63,6 +63,46 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     EXPECT_GT(between, 100);
 }
 
+// Draws the same cells twice, with no echo in place of ambiguous. The pictures may differ in the
+// ambiguous columns alone, and there by thin lines in the color of range folding.
+TEST(AmbiguousCells, AreHatchedInTheColorOfRangeFolding) {
+    const auto frame = [](Product product, CellStatus status) {
+        const auto grid = make_grid_of(small_spec(100, 4), [&](int ix, int iy, int) -> Cell {
+            if (ix >= 20 && ix < 40) return {status, 0};
+            if (ix >= 60 && ix < 80) return {CellStatus::range_folded, 0};
+            return iy < 50 ? Cell{CellStatus::no_echo, 0} : valued(25);
+        });
+        FrameFacts facts = facts_of(grid);
+        facts.moment = level2::Moment::veld;
+        Scene scene = plain(product, 520);
+        scene.moment = level2::Moment::veld;
+        scene.cappi_height_m = 1200;
+        const auto bricks =
+            grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::veld));
+        return render_frame(bricks.view(), facts, scene, 2).value();
+    };
+    for (const Product product : {Product::cappi, Product::composite}) {
+        const Image plain_ground = frame(product, CellStatus::no_echo);
+        const Image image = frame(product, CellStatus::ambiguous);
+        const Rgba8 folded = default_color_table(level2::Moment::veld).range_folded;
+        int lines = 0, between = 0;
+        for (int y = 0; y < 520; ++y) {
+            for (int x = 0; x < 520; ++x) {
+                const bool is_ambiguous = x >= 110 && x < 210 && y >= 10 && y < 510;
+                const Rgba8 ground = plain_ground.at(x, y);
+                // Lines of the map are over the cells.
+                if (is_ambiguous && ground != shades::dark.land.seen) continue;
+                ASSERT_EQ(image.at(x, y), is_ambiguous ? hatched(ground, folded, x, y, 1) : ground)
+                    << x << "," << y;
+                lines += is_ambiguous && image.at(x, y) == folded ? 1 : 0;
+                between += is_ambiguous && image.at(x, y) == ground ? 1 : 0;
+            }
+        }
+        EXPECT_GT(lines, 4000);
+        EXPECT_GT(between, 30000);
+    }
+}
+
 TEST(VolumeFrame, TheGroundTellsHowItWasSeen) {
     const grid::GridSpec spec = small_spec(100, 20);
     const auto grid = make_grid_of(spec, [&](int ix, int, int iz) -> Cell {

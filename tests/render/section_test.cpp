@@ -67,14 +67,16 @@ TEST(Section, ThroughCentresOfColumnsShowsTheCells) {
         if (ix < 10) return {CellStatus::not_seen, 0};
         if (ix < 20) return {CellStatus::no_echo, 0};
         if (ix < 30) return {CellStatus::range_folded, 0};
+        if (ix >= 38) return {CellStatus::ambiguous, 0};
         return valued(iz * 5 + 10);
     });
-    const auto bricks = bricks_of(grid);
+    const auto bricks = bricks_of(grid, 1, true);
     // Each section runs from north to south along a column of the grid. This is nearly a straight
     // line on the map.
     for (const auto& [ix, status] :
          {std::pair{5, CellStatus::not_seen}, std::pair{15, CellStatus::no_echo},
-          std::pair{25, CellStatus::range_folded}, std::pair{35, CellStatus::value}}) {
+          std::pair{25, CellStatus::range_folded}, std::pair{35, CellStatus::value},
+          std::pair{39, CellStatus::ambiguous}}) {
         const Section section =
             cut_section(bricks.view(), Moment::ref, between(spec, ix, 35, ix, 5), 7, 9, 1);
         EXPECT_EQ(section.field.status[section.field.index(3, 4)], status) << ix;

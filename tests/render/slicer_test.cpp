@@ -129,19 +129,30 @@ TEST(Slicer, MoreSlicesComeNearerToTheReference) {
     }
 }
 
-// The grid has random blocks of every state, so that every case of skipping occurs.
-TEST(Slicer, SkippingEmptyBricksChangesNothing) {
-    const grid::GridSpec spec = small_spec(60, 33);
+// Returns codes whose code 3 would be drawn as 52 dBZ if it were a value.
+grid::Quantization bright_when_ambiguous(int code_bytes = 1) {
+    return {code_bytes, 52, 0.125F, true};
+}
+
+// Returns random blocks of every state, so that every case of skipping occurs.
+grid::BrickGrid random_blocks(const grid::GridSpec& spec, const grid::Quantization& quantization) {
     std::mt19937 random(5);
     std::vector<Cell> blocks;
     for (int i = 0; i < 1000; ++i) {
         const auto draw = static_cast<unsigned>(random() % 20);
         blocks.push_back(draw < 3 ? valued(static_cast<double>(random() % 80) - 5)
-                                  : Cell{static_cast<CellStatus>(draw % 3), 0});
+                         : draw < 9 && quantization.has_ambiguous
+                             ? Cell{CellStatus::ambiguous, 0}
+                             : Cell{static_cast<CellStatus>(draw % 3), 0});
     }
-    const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
+    const auto grid = make_grid_of(spec, [&](int ix, int iy, int iz) {
         return blocks[static_cast<unsigned>((ix / 7) * 100 + (iy / 7) * 10 + iz / 6)];
-    }));
+    });
+    return grid::BrickGrid::from(grid, quantization);
+}
+
+void expect_same_as_reference(const grid::BrickGrid& bricks) {
+    const grid::GridSpec& spec = *bricks.view().spec;
     for (const Camera& camera : {Camera{180, 0, 1}, Camera{90, 90, 1}, Camera{180, 55, 1},
                                  Camera{222, 71, 0.8}, Camera{10, 33, 6}}) {
         const ViewGeometry geometry(spec, camera, 4, 160, 120);
@@ -150,6 +161,31 @@ TEST(Slicer, SkippingEmptyBricksChangesNothing) {
             {bricks.view(), nws_reflectivity(), geometry, 0.5}, layer, 4096, 3, 11);
         EXPECT_LT(difference.rms, 0.004) << camera.azimuth_deg;
         EXPECT_LT(difference.worst, 0.06) << camera.azimuth_deg;
+    }
+}
+
+TEST(Slicer, SkippingEmptyBricksChangesNothing) {
+    const grid::GridSpec spec = small_spec(60, 33);
+    expect_same_as_reference(random_blocks(spec, {1, -32, 0.5F}));
+    for (const int code_bytes : {1, 2}) {
+        SCOPED_TRACE(code_bytes);
+        expect_same_as_reference(random_blocks(spec, bright_when_ambiguous(code_bytes)));
+    }
+}
+
+TEST(Slicer, AmbiguousCellsAreInvisible) {
+    const grid::GridSpec spec = small_spec(40, 8);
+    const auto grid = make_grid_of(spec, [](int, int, int) {
+        return Cell{CellStatus::ambiguous, 0};
+    });
+    for (const int code_bytes : {1, 2}) {
+        const auto bricks = grid::BrickGrid::from(grid, bright_when_ambiguous(code_bytes));
+        ASSERT_EQ(bricks.view().bricks[0].kind, grid::BrickKind::stored);
+        for (const double tilt_deg : {0.0, 45.0, 90.0}) {
+            const ViewGeometry geometry(spec, {180, tilt_deg, 1}, 8, 64, 48);
+            for (const float channel : slice(bricks.view(), geometry, 64, 1, 1).rgba)
+                ASSERT_EQ(channel, 0);
+        }
     }
 }
 
@@ -171,11 +207,12 @@ TEST(Slicer, NothingIsDrawnForCellsWithoutAValue) {
 // Next to cells without a value, whatever their state, echo keeps its own color and only fades.
 TEST(Slicer, EdgesFadeInTheEchosOwnColor) {
     const grid::GridSpec spec = small_spec(40, 16);
-    for (const auto status :
-         {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded}) {
-        const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int, int) -> Cell {
-            return ix < 20 ? valued(52) : Cell{status, 0};
-        }));
+    for (const auto status : {CellStatus::not_seen, CellStatus::no_echo, CellStatus::range_folded,
+                              CellStatus::ambiguous}) {
+        const auto grid = make_grid_of(spec, [&](int ix, int, int) -> Cell {
+            return ix < 20 ? valued(52.125) : Cell{status, 0};
+        });
+        const auto bricks = grid::BrickGrid::from(grid, bright_when_ambiguous());
         const Layer layer =
             slice(bricks.view(), ViewGeometry(spec, {180, 0, 1}, 1, 400, 400), 64, 0.3, 1);
         double previous = 1;

@@ -209,6 +209,8 @@ TEST_P(StillGdal, StatesAndColorsAreOtherContentsOfAGeotiff) {
     options.tiff = TiffContent::colors;
     write("colors.tif", options);
     EXPECT_EQ(info("states.tif")["bands"][0]["colorInterpretation"], "Palette");
+    EXPECT_EQ(info("states.tif")["metadata"][""]["STATES"],
+              "0 not seen, 1 no echo, 2 range folded, 3 value, 4 value or more");
     const auto colors = info("colors.tif");
     ASSERT_EQ(colors["bands"].size(), 4U);
     EXPECT_EQ(colors["bands"][3]["colorInterpretation"], "Alpha");
@@ -221,6 +223,46 @@ TEST_P(StillGdal, StatesAndColorsAreOtherContentsOfAGeotiff) {
         const Rgba8 color = overlay_color(*field, place, colors_of(scene_));
         EXPECT_EQ(drawn[i], std::vector<double>(color.begin(), color.end()));
     }
+}
+
+// In the western half of the grid, every cell of the level that is drawn is ambiguous.
+TEST_P(StillGdal, AmbiguousCellsAreAStateAndHalfTransparent) {
+    for (int ix = 0; ix < spec_.nx / 2; ++ix) {
+        for (int iy = 0; iy < spec_.ny; ++iy)
+            grid_.status[spec_.index(ix, iy, 2)] = grid::CellStatus::ambiguous;
+    }
+    facts_.moment = scene_.moment = level2::Moment::veld;
+    scene_.product = Product::cappi;
+    scene_.cappi_height_m = spec_.levels_m[2];
+    bricks_ = bricks_of(grid_, 2, true);
+    StillOptions options;
+    write("values.tif", options);
+    options.tiff = TiffContent::states;
+    write("states.tif", options);
+    options.tiff = TiffContent::colors;
+    write("colors.tif", options);
+    write("a.kmz", {});
+    const auto json = info("states.tif");
+    EXPECT_THAT(json["metadata"][""]["STATES"].get<std::string>(), HasSubstr(", 5 ambiguous"));
+    EXPECT_EQ(json["bands"][0]["colorTable"]["entries"][5], (std::vector<int>{187, 128, 190, 255}));
+    const auto columns = some_columns(spec_);
+    const auto places = places_of(columns, 0);
+    const auto values = at("values.tif", 1, places), states = at("states.tif", 1, places);
+    const auto colors = at("colors.tif", 4, places), kmz = at("a.kmz", 4, places);
+    const Rgba8 folded = colors_of(scene_).range_folded;
+    const std::vector<double> half = {double{1} * folded[0], double{1} * folded[1],
+                                      double{1} * folded[2], std::floor(folded[3] / 2.0)};
+    int ambiguous = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const bool is_ambiguous = columns[i].x < spec_.nx / 2;
+        EXPECT_EQ(states[i][0] == 5, is_ambiguous);
+        EXPECT_EQ(colors[i] == half, is_ambiguous);
+        EXPECT_EQ(kmz[i] == half, is_ambiguous);
+        if (!is_ambiguous) continue;
+        EXPECT_TRUE(std::isnan(values[i][0]));
+        ++ambiguous;
+    }
+    EXPECT_GT(ambiguous, 8);
 }
 
 TEST_P(StillGdal, AKmzLiesWhereItsCellsAre) {

@@ -8,12 +8,14 @@
 
 #include "render/frame/probe.h"
 #include "render/frame/sweep_text.h"
+#include "render/image/shades.h"
 #include "render/products/ground.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/projection.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/render/panels.h"
 #include "stormcellar/render/render.h"
+#include "tests/grid/volume_maker.h"
 #include "tests/render/real_volume.h"
 #include "tests/testing/data.h"
 
@@ -216,6 +218,55 @@ TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
     EXPECT_EQ(check_frame(view, facts, composite).error().code, ErrorCode::bad_argument);
     EXPECT_EQ(product_title(scene_shown(view, scene())),
               "Reflectivity at 0.5 degrees elevation (PPI)");
+}
+
+// Draws a sweep twice, with no echo in place of ambiguous gates. The pictures may differ at the
+// ambiguous gates alone, and there by thin lines in the color of range folding.
+TEST(AmbiguousGates, AreHatchedInThePictureOfTheirSweep) {
+    const grid::SitePosition site{"KTLX", 35, -97, 400};
+    Scene scene;
+    scene.product = Product::ppi;
+    scene.moment = Moment::veld;
+    scene.width = scene.height = 300;
+    scene.labels = false;
+    grid::GridSpec spec = grid::default_spec(site.latitude_deg, site.longitude_deg);
+    spec.levels_m = {site.altitude_m};
+    const auto draw = [&](std::uint16_t code, FlatField& field) {
+        grid::SweepPlan plan;
+        plan.moment = Moment::veld;
+        plan.code = [code](int radial, int gate) {
+            const bool is_patch = radial >= 30 && radial < 120 && gate >= 50 && gate < 150;
+            return is_patch ? code : gate % 4 == 0 ? grid::range_folded : grid::ref_code(20);
+        };
+        auto volume = std::make_shared<const level2::Volume>(grid::make_volume({plan}));
+        auto sweep = grid::SweepLookup::find(volume, site, Moment::veld, 0.475, {});
+        grid::BrickView view;
+        view.spec = &spec;
+        view.sweep = &*sweep;
+        const FrameFacts facts{"KTLX", Moment::veld, sweep->facts().start, {site}};
+        field = sweep_in_picture(*sweep, spec, picture_geometry(spec, scene, 300, 300), 1);
+        return render_frame(view, facts, scene, 2).value();
+    };
+    FlatField field(0, 0), quiet_field(0, 0);
+    const Image image = draw(2, field);  // code 2 is ambiguous
+    const Image plain_ground = draw(0, quiet_field);
+    const Rgba8 folded = colors_of(scene).range_folded;
+    int hatched_pixels = 0;
+    for (int y = 0; y < 300; ++y) {
+        for (int x = 0; x < 300; ++x) {
+            const std::size_t at = field.index(x, y);
+            const Rgba8 ground = plain_ground.at(x, y);
+            if (field.status[at] != CellStatus::ambiguous) {
+                ASSERT_EQ(image.at(x, y), ground) << x << "," << y;
+                continue;
+            }
+            ASSERT_EQ(quiet_field.status[at], CellStatus::no_echo);
+            ASSERT_EQ(image.at(x, y), hatched(ground, folded, x, y, 1)) << x << "," << y;
+            hatched_pixels += image.at(x, y) == folded ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hatched_pixels, 300);
+    EXPECT_GT(std::ranges::count(field.status, CellStatus::ambiguous), 3000);
 }
 
 }  // namespace

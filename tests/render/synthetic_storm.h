@@ -79,8 +79,10 @@ inline grid::Grid make_grid_of(const grid::GridSpec& spec,
     return grid;
 }
 
-inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1) {
-    return grid::BrickGrid::from(grid, {code_bytes, -32, code_bytes == 1 ? 0.5F : 0.01F});
+inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1,
+                                 bool has_ambiguous = false) {
+    return grid::BrickGrid::from(grid,
+                                 {code_bytes, -32, code_bytes == 1 ? 0.5F : 0.01F, has_ambiguous});
 }
 
 // Returns a cell of a storm without any symmetry, as a synthetic radar sees it: a leaning core with
