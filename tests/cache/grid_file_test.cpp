@@ -55,6 +55,25 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_TRUE(about.provenance.partial);
     EXPECT_EQ(about.provenance.audit, grid.provenance.audit);
 }
+// The header of a file says which moment it has, and so whether code 3 is ambiguous.
+TEST_P(GridFileTest, RoundTripKeepsAmbiguousCells) {
+    const grid::Grid grid = testing::ambiguous_grid();
+    const grid::Quantization quantization{GetParam(), -32, 0.5F, true};
+    const grid::BrickGrid made = grid::BrickGrid::from(grid, quantization);
+    for (const Packing packing : {Packing::none, Packing::lz4}) {
+        ASSERT_TRUE(
+            write_grid_file(real_file_system(), path_, describe(grid), made.view(), packing));
+        const auto file = GridFile::open(path_);
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_TRUE(file->verify());
+        EXPECT_EQ(file->description().moment, level2::Moment::veld);
+        EXPECT_EQ(file->view().quantization, quantization);
+        const grid::Grid back = grid::to_dense(file->view());
+        EXPECT_EQ(back.status, grid.status);
+        EXPECT_EQ(back.values, grid::to_dense(made.view()).values);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(CodeBytes, GridFileTest, ::testing::Values(1, 2));
 
 TEST_F(GridFileTest, EveryProjectionComesBack) {

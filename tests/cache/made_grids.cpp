@@ -108,6 +108,21 @@ grid::Grid small_grid() {
     return made;
 }
 
+grid::Grid ambiguous_grid() {
+    grid::Grid made = small_grid();
+    made.moment = level2::Moment::veld;
+    for (int iy = 0; iy < made.spec.ny; ++iy) {
+        for (int ix = 0; ix < made.spec.nx; ++ix) {
+            for (int iz = 0; iz < made.spec.nz(); ++iz) {
+                grid::CellStatus& status = made.status[made.spec.index(ix, iy, iz)];
+                const bool is_every_other = status == grid::CellStatus::range_folded && iy % 2 == 0;
+                if (is_every_other || ix >= 32) status = grid::CellStatus::ambiguous;
+            }
+        }
+    }
+    return made;
+}
+
 const grid::BrickGrid& sized_grid(int stored) {
     return made(stored).bricks;
 }

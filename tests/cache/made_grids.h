@@ -12,6 +12,10 @@ namespace stormcellar::testing {
 // enough to damage each byte: 40 x 24 x 18 cells in 3 x 2 x 2 bricks.
 [[nodiscard]] grid::Grid small_grid();
 
+// Returns small_grid() as a grid of VELD. Half of its range-folded cells and all cells of the
+// bricks in the east are ambiguous.
+[[nodiscard]] grid::Grid ambiguous_grid();
+
 // Largest number of stored bricks in a grid of sized_grid().
 inline constexpr int most_bricks = 8;
 

@@ -18,7 +18,7 @@ using level2::SweepMoment;
 using level2::Volume;
 using Values = std::vector<double>;
 
-constexpr double valid = 0, below = 1, folded = 2, none = 3;
+constexpr double valid = 0, below = 1, folded = 2, none = 3, ambiguous = 4;
 
 // Returns a word without the zeros that fill it up to `string_length` letters.
 std::string word(const std::string& letters) {
@@ -59,6 +59,43 @@ TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
 }
 
 // Checks the accuracy that stormcellar/export/cfradial.h states, with the scales of real volumes.
+// VELD is a field beside VEL, whose codes and states stay as they are without it.
+TEST_F(Cfradial, DealiasedVelocityStandsBesideTheRawVelocity) {
+    const SweepMoment raw = small_moment(Moment::vel, {{0, 1, 2, 129, 254}});
+    write(one_moment(raw));
+    const Values codes = Reader(path_).values("VEL", 5);
+    const Values states = Reader(path_).values("VEL_status", 5);
+    EXPECT_EQ(codes, (Values{-1, -1, 2, 129, 254}));
+    EXPECT_EQ(states, (Values{below, folded, valid, valid, valid}));
+    SweepMoment made = wide_moment(Moment::veld, {{0, 1, 2, 32768, 3}});
+    made.scale = 100;
+    made.offset = 32768;
+    write(small_volume({small_sweep(1, {raw, made})}));
+    Reader reader(path_);
+    EXPECT_EQ(reader.values("VEL", 5), codes);
+    EXPECT_EQ(reader.values("VEL_status", 5), states);
+    EXPECT_EQ(reader.text("VEL_status", "flag_meanings"),
+              "valid below_threshold range_folded no_data");
+    EXPECT_EQ(reader.text(nullptr, "field_names"),
+              "VEL,VEL_status,VEL_dealiased,VEL_dealiased_status");
+    EXPECT_EQ(reader.values("VEL_dealiased_status", 5),
+              (Values{below, folded, ambiguous, valid, valid}));
+    EXPECT_EQ(reader.text("VEL_dealiased_status", "flag_meanings"),
+              "valid below_threshold range_folded no_data ambiguous");
+    EXPECT_EQ(reader.numbers("VEL_dealiased_status", "flag_values"), (Values{0, 1, 2, 3, 4}));
+    EXPECT_EQ(reader.text("VEL_dealiased", "ancillary_variables"), "VEL_dealiased_status");
+    EXPECT_EQ(reader.text("VEL_dealiased", "standard_name"),
+              "corrected_radial_velocity_of_scatterers_away_from_instrument");
+    const double fill = reader.number("VEL_dealiased", "_FillValue");
+    const double scale = reader.number("VEL_dealiased", "scale_factor");
+    const double offset = reader.number("VEL_dealiased", "add_offset");
+    const Values packed = reader.values("VEL_dealiased", 5);
+    for (const std::size_t gate : {0U, 1U, 2U})
+        EXPECT_EQ(packed[gate], fill) << gate;
+    EXPECT_NEAR(packed[3] * scale + offset, 0, 1e-5);
+    EXPECT_NEAR(packed[4] * scale + offset, -327.65, 1e-4);
+}
+
 TEST_F(Cfradial, UnpackedValuesAreAsExactAsStated) {
     struct Packing {
         float scale, offset;

@@ -239,6 +239,35 @@ TEST_F(GridNetcdf, SeveralMomentsAreOneFileWithAFieldEach) {
     EXPECT_FALSE(reader.has_variable("status"));
 }
 
+// Writes VEL and VELD into one file. The states of VEL are numbered and described as in a file
+// without VELD.
+TEST_F(GridNetcdf, OnlyDerivedMomentsHaveTheStateAmbiguous) {
+    std::vector<Grid> grids = two_moments();
+    grids[0].moment = level2::Moment::veld;
+    for (std::size_t cell = 0; cell < grids[0].status.size(); cell += 5)
+        grids[0].status[cell] = CellStatus::ambiguous;
+    std::ranges::reverse(grids);
+    ASSERT_TRUE(write_grids(real_file_system(), path_, grids));
+    Reader reader(path_);
+    expect_cells(reader, grids[0], "VEL", "VEL_status");
+    expect_cells(reader, grids[1], "VELD", "VELD_status");
+    EXPECT_EQ(reader.values("VELD_status", grids[1].spec.cell_count())[0], 5) << "ambiguous";
+    using Numbers = std::vector<double>;
+    EXPECT_EQ(reader.numbers("VELD_status", "flag_values"), (Numbers{0, 1, 2, 3, 5}));
+    EXPECT_EQ(reader.text("VELD_status", "flag_meanings"),
+              "not_seen no_echo range_folded value ambiguous");
+    const std::string measured =
+        "not_seen: blind region, beyond range, missing radials or sweeps; no_echo: seen, below the "
+        "radar's threshold; range_folded: echo from beyond the unambiguous range";
+    EXPECT_EQ(reader.text("VELD_status", "comment"),
+              measured + "; ambiguous: echo whose value cannot be derived");
+    EXPECT_EQ(reader.text("VELD", "standard_name"),
+              "radial_velocity_of_scatterers_away_from_instrument");
+    EXPECT_EQ(reader.numbers("VEL_status", "flag_values"), (Numbers{0, 1, 2, 3}));
+    EXPECT_EQ(reader.text("VEL_status", "flag_meanings"), "not_seen no_echo range_folded value");
+    EXPECT_EQ(reader.text("VEL_status", "comment"), measured);
+}
+
 TEST_F(GridNetcdf, GridsThatDoNotBelongTogetherAreRefused) {
     const auto refused = [&](auto&& change) {
         std::vector<Grid> grids = two_moments();

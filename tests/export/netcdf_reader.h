@@ -46,6 +46,14 @@ class Reader {
         EXPECT_EQ(nc_get_att_double(id_, owner, name, &read), NC_NOERR) << name;
         return read;
     }
+    // Returns an attribute of a variable that has several numbers.
+    std::vector<double> numbers(const char* of, const char* name) {
+        std::size_t length = 0;
+        EXPECT_EQ(nc_inq_attlen(id_, variable(of), name, &length), NC_NOERR) << name;
+        std::vector<double> read(length);
+        EXPECT_EQ(nc_get_att_double(id_, variable(of), name, read.data()), NC_NOERR) << name;
+        return read;
+    }
     std::size_t length(const char* dimension) {
         int found = -1;
         std::size_t length = 0;
