@@ -1,4 +1,5 @@
 // Tests the lists of volumes and sweeps, and which sweeps are marked for pictures.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -12,7 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include "grid/place/source_volume.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/retrieve/dealias.h"
 #include "tests/web/served_volumes.h"
+#include "web/data/grids/packed_sweep.h"
 #include "web/service/sources.h"
 
 namespace stormcellar::web {
@@ -85,6 +89,54 @@ TEST(ApiSweeps, GatesOfADerivedMomentComeOrAReasonDoes) {
     const Answer relative = doors.get(sweep + "SRV");
     EXPECT_EQ(relative.status, 404U);
     EXPECT_THAT(body_of(relative), ::testing::HasSubstr("gives no storm motion: the highest wind"));
+}
+
+// VELD is listed beside VEL and chosen with it. Its gates are those that the library derives.
+TEST(ApiSweeps, HaveTheDealiasedVelocityBesideTheVelocity) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    OpenDoors doors(volumes);
+    const std::string path = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps";
+    const auto volume =
+        level2::decode_file(testing::real_file("volumes/KTLX20170101_030027_V06"))->volume;
+    const auto dealiased =
+        retrieve::dealiased_velocities(volume, retrieve::Dealiasing::automatic).value();
+    int derived = 0;
+    const auto list = nlohmann::json::parse(body_of(doors.get(path))).at("sweeps");
+    for (const auto& sweep : list) {
+        const auto& moments = sweep.at("moments");
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            if (moments[i].at("moment") != "VELD") continue;
+            ++derived;
+            auto expected = moments.at(i - 1);
+            EXPECT_EQ(expected.at("moment"), "VEL");
+            expected["moment"] = "VELD";
+            expected["bits"] = 16;
+            EXPECT_EQ(moments[i], expected);
+        }
+        EXPECT_EQ(moments.dump().find("VELD") != std::string::npos,
+                  moments.dump().find("\"VEL\"") != std::string::npos);
+    }
+    EXPECT_EQ(derived, 5);
+
+    const Answer answer = doors.get(path + "/1/VELD");
+    ASSERT_EQ(answer.status, 200U) << body_of(answer);
+    const std::string bytes = body_of(answer);
+    PackedSweepHeader header;
+    ASSERT_GE(bytes.size(), sizeof header);
+    std::memcpy(&header, bytes.data(), sizeof header);
+    EXPECT_EQ(header.moment, static_cast<std::uint32_t>(level2::Moment::veld));
+    EXPECT_EQ(header.code_bytes, 2U);
+    EXPECT_EQ(header.first_valid_code, 3U) << "code 2 is ambiguous";
+    const level2::SweepMoment& made = *dealiased.sweeps.at(1).find(level2::Moment::veld);
+    EXPECT_EQ(header.scale, made.scale);
+    EXPECT_EQ(header.offset, made.offset);
+    ASSERT_EQ(bytes.size(), header.codes_offset + 2 * made.codes16.size());
+    EXPECT_EQ(std::memcmp(bytes.data() + header.codes_offset, made.codes16.data(),
+                          2 * made.codes16.size()),
+              0);
+    EXPECT_EQ(doors.get(path + "/0/VELD").status, 404U) << "a surveillance sweep";
+    EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes) << "kept";
 }
 
 // 2026-11-28: a volume that came as chunks was decoded once, so its list never got later sweeps.

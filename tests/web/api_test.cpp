@@ -19,6 +19,13 @@ nlohmann::json json_of(const Answer& answer) {
 
 class Api : public ::testing::Test {
   protected:
+    // Adds testing::ambiguous_grid(). Returns its path.
+    std::string add_ambiguous_grid() {
+        const grid::Grid grid = testing::ambiguous_grid();
+        const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+        EXPECT_TRUE(served_.store().commit("KBGM", cache::describe(grid), bricks.view()));
+        return "/api/v1/grids/KBGM/VELD/2005-08-22T02:44:14.123Z";
+    }
     ServedGrids served_;
 };
 
@@ -160,6 +167,29 @@ TEST_F(Api, ProbesGiveTheGridsOwnCells) {
     }
 }
 
+TEST_F(Api, AmbiguousCellsKeepTheirStateInAnswers) {
+    const std::string path = add_ambiguous_grid();
+    const auto probe = json_of(served_.get(path + "/probe?at=42.2,-75.83"));
+    EXPECT_GE(probe["column"]["x"], 32);
+    for (const auto& level : probe["levels"])
+        EXPECT_TRUE(level["state"] == "ambiguous" && level["value"].is_null()) << level;
+    const std::string line = "/profile?from=42.2,-76.2&to=42.2,-75.8&count=40";
+    const auto profile = json_of(served_.get(path + line));
+    int ambiguous = 0;
+    for (const auto& point : profile["points"]) {
+        if (!point["inside"].get<bool>()) continue;
+        for (std::size_t i = 0; i < point["states"].size(); ++i) {
+            const auto& name = profile["state_names"].at(point["states"][i].get<std::size_t>());
+            ASSERT_EQ(name == "value", !point["values"][i].is_null());
+            ambiguous += name == "ambiguous" ? 1 : 0;
+        }
+    }
+    EXPECT_GT(ambiguous, 18);
+    EXPECT_EQ(
+        json_of(served_.get(std::string(ServedGrids::small_path) + line))["state_names"].size(),
+        4u);
+}
+
 TEST_F(Api, TheOwnFileComesWithRanges) {
     const std::string file = std::string(ServedGrids::noon_path) + "/file";
     const std::string whole = body_of(served_.get(file));
@@ -266,22 +296,29 @@ TEST_F(Api, CodesOfValuesAloneAreThoseOfAllCells) {
     EXPECT_GT(value, 0U);
 }
 
-TEST_F(Api, ThePackedFormHoldsEachCell) {
-    const Unpacked packed(body_of(served_.get(std::string(ServedGrids::small_path) + "/packed")));
-    const grid::Grid& grid = served_.small();
-    const auto bricks = grid::BrickGrid::from(grid, ServedGrids::quantization());
+// Compares the packed form of a grid with its cells. In a derived moment, code 3 is ambiguous.
+void expect_packed(const Unpacked& packed, const grid::Grid& grid) {
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
     const grid::BrickView view = bricks.view();
+    const bool is_derived = level2::facts_of(grid.moment).is_derived;
     EXPECT_EQ(packed.u32(36), 40u);
     EXPECT_EQ(packed.u32(40), 24u);
     EXPECT_EQ(packed.u32(44), 18u);
-    std::size_t values = 0;
+    std::size_t values = 0, ambiguous = 0;
     for (int x = 0; x < 40; ++x) {
         for (int y = 0; y < 24; ++y) {
             for (int z = 0; z < 18; ++z) {
                 int state = -1;
                 const auto code = packed.code(x, y, z, state);
                 const grid::CellStatus status = view.status(x, y, z);
+                const bool is_ambiguous = is_derived && code == 3;
+                ASSERT_EQ(is_ambiguous, status == grid::CellStatus::ambiguous);
+                ambiguous += is_ambiguous ? 1 : 0;
+                if (is_ambiguous) continue;
                 ASSERT_EQ(code.has_value(), status == grid::CellStatus::value);
+                if (!code) {
+                    ASSERT_EQ(state, static_cast<int>(status));
+                }
                 if (!code) continue;
                 ++values;
                 const float value =
@@ -292,6 +329,14 @@ TEST_F(Api, ThePackedFormHoldsEachCell) {
         }
     }
     EXPECT_GT(values, 100u);
+    EXPECT_EQ(ambiguous > 100, is_derived);
+}
+
+TEST_F(Api, ThePackedFormHoldsEachCell) {
+    expect_packed(Unpacked(body_of(served_.get(std::string(ServedGrids::small_path) + "/packed"))),
+                  served_.small());
+    expect_packed(Unpacked(body_of(served_.get(add_ambiguous_grid() + "/packed"))),
+                  testing::ambiguous_grid());
 }
 
 // Compares a window that begins at the given cell with the whole grid. Returns the number of its

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -12,8 +13,9 @@ namespace {
 
 using grid::CellStatus;
 
-// Returns a grid of odd sizes with patches of every state, so that it has bricks of each kind.
-grid::Grid patched_grid() {
+// Returns a grid of odd sizes with patches of every state, so that it has bricks of each kind. With
+// `has_ambiguous`, some bricks are ambiguous alone.
+grid::Grid patched_grid(bool has_ambiguous = false) {
     grid::Grid made;
     made.spec.nx = 53;
     made.spec.ny = 37;
@@ -31,6 +33,8 @@ grid::Grid patched_grid() {
                 made.status[at] = patch == 0   ? CellStatus::no_echo
                                   : patch == 1 ? static_cast<CellStatus>(numbers() % 3)
                                                : mixed;
+                if (has_ambiguous && (patch == 0 ? iy < 20 : numbers() % 4 == 0))
+                    made.status[at] = CellStatus::ambiguous;
                 if (made.status[at] == CellStatus::value)
                     made.values[at] = 0.5F * static_cast<float>(numbers() % 120) - 30;
             }
@@ -47,12 +51,13 @@ struct Cell {
 // Returns the maximum of the four cells that a halved cell covers, by the rule in the header.
 Cell greatest_of(const grid::BrickView& view, int x, int y, int z, bool by_magnitude) {
     Cell made;
-    bool has_no_echo = false, has_folded = false;
+    bool has_no_echo = false, has_folded = false, has_ambiguous = false;
     for (int ix = 2 * x; ix < std::min(2 * x + 2, view.spec->nx); ++ix) {
         for (int iy = 2 * y; iy < std::min(2 * y + 2, view.spec->ny); ++iy) {
             const CellStatus status = view.status(ix, iy, z);
             has_no_echo |= status == CellStatus::no_echo;
             has_folded |= status == CellStatus::range_folded;
+            has_ambiguous |= status == CellStatus::ambiguous;
             if (status != CellStatus::value) continue;
             const float value = view.value(ix, iy, z);
             const bool is_greater =
@@ -61,13 +66,14 @@ Cell greatest_of(const grid::BrickView& view, int x, int y, int z, bool by_magni
         }
     }
     if (made.status == CellStatus::value) return made;
+    if (has_ambiguous) return {CellStatus::ambiguous, 0};
     if (has_folded) return {CellStatus::range_folded, 0};
     return {has_no_echo ? CellStatus::no_echo : CellStatus::not_seen, 0};
 }
 
 void expect_maxima(level2::Moment moment, bool by_magnitude) {
-    const grid::BrickGrid whole =
-        grid::BrickGrid::from(patched_grid(), grid::default_quantization(moment));
+    const grid::BrickGrid whole = grid::BrickGrid::from(
+        patched_grid(level2::facts_of(moment).is_derived), grid::default_quantization(moment));
     const auto half = halved(whole.view(), moment, 1, HalvedBy::maximum);
     ASSERT_TRUE(half) << half.error().message;
     const grid::BrickView view = (*half)->view();
@@ -100,6 +106,54 @@ TEST(HalvedGrid, OfCodesOfTwoBytesToo) {
 
 TEST(HalvedGrid, OfVelocitiesItIsTheFastest) {
     expect_maxima(level2::Moment::vel, true);
+    expect_maxima(level2::Moment::veld, true);
+}
+
+// Code 3 is ambiguous and must not enter a mean. The status is by the rule of all mixtures
+// (docs/geometry.md), but among states with equal counts, range folding comes before ambiguous.
+TEST(HalvedGrid, TheMeanHasNoAmbiguousCellInIt) {
+    const grid::BrickGrid whole =
+        grid::BrickGrid::from(patched_grid(true), grid::default_quantization(level2::Moment::veld));
+    const grid::BrickView view = whole.view();
+    const auto half = halved(view, level2::Moment::veld, 1, HalvedBy::mean);
+    ASSERT_TRUE(half) << half.error().message;
+    int values = 0, ambiguous = 0;
+    for (int x = 0; x < 26; ++x) {
+        for (int y = 0; y < 18; ++y) {
+            for (int z = 0; z < 19; ++z) {
+                std::map<CellStatus, int> counts;
+                double sum = 0;
+                for (const auto& [ix, iy] : {std::pair{2 * x, 2 * y},
+                                             {2 * x + 1, 2 * y},
+                                             {2 * x, 2 * y + 1},
+                                             {2 * x + 1, 2 * y + 1}}) {
+                    const CellStatus status = view.status(ix, iy, z);
+                    ++counts[status];
+                    if (status == CellStatus::value)
+                        sum += static_cast<double>(view.value(ix, iy, z));
+                }
+                const CellStatus found = (*half)->view().status(x, y, z);
+                const int valued = counts[CellStatus::value];
+                const int unknown =
+                    counts[CellStatus::range_folded] + counts[CellStatus::ambiguous];
+                if (found == CellStatus::value) {
+                    ASSERT_GE(valued, std::max(unknown, counts[CellStatus::no_echo]));
+                    ASSERT_NEAR((*half)->view().value(x, y, z), sum / valued, 0.125);
+                    ++values;
+                }
+                if (found == CellStatus::ambiguous) {
+                    ASSERT_GT(counts[CellStatus::ambiguous], counts[CellStatus::range_folded]);
+                    ASSERT_GT(unknown, valued);
+                    ++ambiguous;
+                }
+                if (counts[CellStatus::ambiguous] == 4) {
+                    ASSERT_EQ(found, CellStatus::ambiguous);
+                }
+            }
+        }
+    }
+    EXPECT_GT(values, 300);
+    EXPECT_GT(ambiguous, 300);
 }
 
 TEST(HalvedGrid, HalvedTwiceIsTheMaximumOfSixteen) {

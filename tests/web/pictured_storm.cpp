@@ -74,16 +74,22 @@ render::Rgba8 composite_color_at(const OpenGrid& grid, const render::Scene& scen
     const auto y = static_cast<int>(std::floor(at.y + 0.5));
     if (x < 0 || y < 0 || x >= view.spec->nx || y >= view.spec->ny) return {0, 0, 0, 0};
     std::optional<float> largest;
-    bool is_seen = false, is_folded = false;
+    bool is_seen = false, is_folded = false, is_ambiguous = false;
     for (int z = 0; z < view.spec->nz(); ++z) {
         const grid::CellStatus status = view.status(x, y, z);
         is_seen = is_seen || status != grid::CellStatus::not_seen;
         is_folded = is_folded || status == grid::CellStatus::range_folded;
+        is_ambiguous = is_ambiguous || status == grid::CellStatus::ambiguous;
         if (status != grid::CellStatus::value) continue;
         largest = std::max(largest.value_or(-1e9F), view.value(x, y, z));
     }
     const render::ColorTable& table = render::colors_of(scene);
     if (largest) return render::color_of(table, *largest).value_or(render::Rgba8{0, 0, 0, 0});
+    if (is_ambiguous) {
+        render::Rgba8 half_transparent = table.range_folded;
+        half_transparent[3] /= 2;
+        return half_transparent;
+    }
     if (is_folded) return table.range_folded;
     return is_seen ? render::Rgba8{0, 0, 0, 0} : render::Rgba8{96, 100, 108, 72};
 }

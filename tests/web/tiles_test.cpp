@@ -9,6 +9,7 @@
 
 #include "tests/web/asked.h"
 #include "tests/web/pictured_storm.h"
+#include "tests/web/served_grids.h"
 
 namespace stormcellar::web {
 namespace {
@@ -32,8 +33,8 @@ grid::GeoPoint place_of_pixel(double x, double y, int zoom, int side) {
 
 // Compares pixels with the cells at their places. The server interpolates places on a mesh, so a
 // pixel may show the neighboring cell if its center is within a tenth of a pixel of a cell's edge.
-void expect_pixels(const render::Image& image, const OpenGrid& grid, int zoom, int column,
-                   int row) {
+void expect_pixels(const render::Image& image, const OpenGrid& grid, int zoom, int column, int row,
+                   int least_shown = 1000) {
     const auto style = map_style({render::Product::composite, grid.moment}, {}, {});
     ASSERT_TRUE(style);
     int wrong = 0, shown = 0;
@@ -46,7 +47,7 @@ void expect_pixels(const render::Image& image, const OpenGrid& grid, int zoom, i
             if (color[3] != 0) ++shown;
         }
     }
-    EXPECT_GT(shown, 1000);
+    EXPECT_GT(shown, least_shown);
     EXPECT_LE(wrong, image.width * image.height / 9 / 100);
 }
 
@@ -56,6 +57,42 @@ TEST_F(Tiles, EachPixelShowsTheCellAtItsPlace) {
     expect_pixels(tile("8/58/100.png"), *reflectivity, 8, 58, 100);
     expect_pixels(tile("10/235/404@2x.png"), *reflectivity, 10, 235, 404);
     expect_pixels(tile("8/58/101.png", "composite.VEL"), *velocity, 8, 58, 101);
+}
+
+// The small grid has bricks of ambiguous cells alone, and ambiguous cells between others.
+TEST(TilesOfDealiasedVelocity, ShowAmbiguousCellsHalfTransparent) {
+    ServedGrids served;
+    const grid::Grid grid = testing::ambiguous_grid();
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+    ASSERT_TRUE(served.store().commit("KBGM", cache::describe(grid), bricks.view()));
+    TilesDoor door(
+        std::make_shared<MapPictures>(MapPicturesOptions{.grids = served.shared_grids()}));
+    // The tile holds the eastern half of the grid, with two pixels for a column.
+    const Answer answer = asked(door, "/tiles/KBGM/composite.VELD/latest/8/74/94.png");
+    ASSERT_EQ(answer.status, 200u) << body_of(answer);
+    const render::Image image = decoded_png(body_of(answer));
+    const auto newest = served.grids().newest("KBGM", grid.moment);
+    const auto open = served.grids().find("KBGM", grid.moment, *newest);
+    ASSERT_TRUE(open);
+    expect_pixels(image, **open, 8, 74, 94, 50);
+    const auto style = map_style({render::Product::composite, grid.moment}, {}, {});
+    render::Rgba8 half_transparent = render::colors_of(style->scene).range_folded;
+    half_transparent[3] /= 2;
+    int ambiguous = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            ambiguous += image.at(x, y) == half_transparent ? 1 : 0;
+    EXPECT_GT(ambiguous, 200);
+
+    // From afar, four cells become one: a value if one of them has one, else ambiguous.
+    render::FlatField four(2, 2);
+    four.put(0, grid::CellStatus::ambiguous, 0);
+    four.put(1, grid::CellStatus::range_folded, 0);
+    four.put(2, grid::CellStatus::no_echo, 0);
+    const auto together = halved_field(four, style->scene, 1);
+    EXPECT_EQ(together.status, std::vector{grid::CellStatus::ambiguous});
+    four.put(3, grid::CellStatus::value, -7);
+    EXPECT_EQ(halved_field(four, style->scene, 1).values, std::vector{-7.0F});
 }
 
 TEST_F(Tiles, FromAfarNoEchoIsLost) {

@@ -214,6 +214,31 @@ TEST_F(Wms, FeatureInfoIsTheCellUnderThePixel) {
     EXPECT_THAT(body_of(get(query + "text/plain&I=150&J=3")), HasSubstr("InvalidPoint"));
 }
 
+TEST(WmsOfDealiasedVelocity, ShowsAndNamesAmbiguousCells) {
+    ServedGrids served;
+    const grid::Grid grid = testing::ambiguous_grid();
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+    ASSERT_TRUE(served.store().commit("KBGM", cache::describe(grid), bricks.view()));
+    WmsDoor door(std::make_shared<MapPictures>(MapPicturesOptions{.grids = served.shared_grids()}));
+    const auto get = [&](const std::string& query) {
+        return body_of(asked(door,
+                             "/wms?SERVICE=WMS&VERSION=1.3.0&STYLES=&CRS=CRS:84&BBOX=-75.86,"
+                             "42.12,-75.8,42.18&WIDTH=60&HEIGHT=60&LAYERS=KBGM:composite.VELD"
+                             "&FORMAT=image/png&TRANSPARENT=TRUE&" +
+                                 query));
+    };
+    const render::Image image = decoded_png(get("REQUEST=GetMap"));
+    ASSERT_EQ(image.width, 60);
+    const auto style = map_style({render::Product::composite, grid.moment}, {}, {});
+    render::Rgba8 half_transparent = render::colors_of(style->scene).range_folded;
+    half_transparent[3] /= 2;
+    EXPECT_EQ(image.at(30, 30), half_transparent);
+    const auto json = nlohmann::json::parse(
+        get("REQUEST=GetFeatureInfo&QUERY_LAYERS=KBGM:composite.VELD&INFO_FORMAT=application/json"
+            "&I=30&J=30"));
+    EXPECT_EQ(json["features"][0]["properties"]["status"], "ambiguous") << json;
+}
+
 TEST_F(Wms, LegendShowsTheColors) {
     const std::string query = "REQUEST=GetLegendGraphic&VERSION=1.3.0&FORMAT=image/png&LAYER=";
     const render::Image usual = image_of(get(query + "KTLX:composite.REF"));

@@ -102,6 +102,25 @@ TEST_F(ZarrTest, StatesHaveAFlagForWhatIsUnavailable) {
     EXPECT_EQ(all.at("status/.zattrs").at("flag_values"), nlohmann::json::array({0, 1, 2, 3, 4}));
 }
 
+// Ambiguous is 5, so that 4 keeps its meaning. A reader sees no value in ambiguous cells.
+TEST_F(ZarrTest, StatesOfADerivedMomentHaveAFlagForAmbiguous) {
+    const grid::Grid grid = testing::ambiguous_grid();
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+    ASSERT_TRUE(served_.store().commit("KBGM", cache::describe(grid), bricks.view()));
+    const auto all = zarr_json(get("/zarr/KBGM/VELD/.zmetadata"))["metadata"];
+    EXPECT_EQ(all.at("status/.zarray").at("fill_value"), 4);
+    EXPECT_EQ(all.at("status/.zattrs").at("flag_values"),
+              nlohmann::json::array({0, 1, 2, 3, 5, 4}));
+    EXPECT_EQ(all.at("status/.zattrs").at("flag_meanings"),
+              "not_seen no_echo range_folded value ambiguous unavailable");
+    const auto states = numbers_in<std::int8_t>(get("/zarr/KBGM/VELD/status/0.0.0.0"));
+    const auto values = numbers_in<float>(get("/zarr/KBGM/VELD/VELD/0.0.0.0"));
+    ASSERT_EQ(states.size(), values.size());
+    EXPECT_GT(std::ranges::count(states, 5), 1000);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        ASSERT_EQ(std::isnan(values[i]), states[i] != 3) << i;
+}
+
 TEST_F(ZarrTest, VersionThreeSaysTheSame) {
     const auto group = zarr_json(get3("/zarr3/KBGM/REF/zarr.json"));
     const auto& arrays = group.at("consolidated_metadata").at("metadata");
@@ -148,13 +167,12 @@ TEST_F(ZarrTest, ChunksHoldTheCellsOfTheGrid) {
 }
 
 // Compares every chunk of a grid with cells of all states, including the cells beyond its edges.
-TEST_F(ZarrTest, ChunksOfEveryPlaceHoldTheirCells) {
-    const grid::Grid& small = served_.small();
-    const auto bricks = grid::BrickGrid::from(small, ServedGrids::quantization());
+void expect_cells_in_every_chunk(const grid::Grid& grid) {
+    const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
     const grid::Grid dense = grid::to_dense(bricks.view());
-    const grid::GridSpec& spec = small.spec;
+    const grid::GridSpec& spec = grid.spec;
     const int levels = chunk_levels(spec);
-    std::array<std::size_t, 5> seen{};
+    std::vector<std::size_t> seen(grid::states_of(grid.moment).size() + 1);
     for (int cy = 0; cy < chunks_along(spec.ny); ++cy) {
         for (int cx = 0; cx < chunks_along(spec.nx); ++cx) {
             const std::string states = status_chunk(bricks.view(), {0, cy, cx});
@@ -186,6 +204,11 @@ TEST_F(ZarrTest, ChunksOfEveryPlaceHoldTheirCells) {
     }
     for (const std::size_t cells : seen)
         EXPECT_GT(cells, 0u) << "the grid must have cells of every state, and an edge";
+}
+
+TEST_F(ZarrTest, ChunksOfEveryPlaceHoldTheirCells) {
+    expect_cells_in_every_chunk(served_.small());
+    expect_cells_in_every_chunk(testing::ambiguous_grid());
 }
 
 TEST_F(ZarrTest, ATimeKeepsItsNumberWhenItsGridIsEvictedAndAfterARestart) {

@@ -27,9 +27,10 @@ std::optional<GridColumn> column_at(const grid::GridProjection& projection,
     return GridColumn{static_cast<int>(x), static_cast<int>(y)};
 }
 
-ApiJson state_names() {
+// Returns the names of the states from 0 to the last one that the moment has.
+ApiJson state_names(level2::Moment moment) {
     ApiJson names = ApiJson::array();
-    for (int state = 0; state < 4; ++state)
+    for (int state = 0; state <= static_cast<int>(grid::states_of(moment).back()); ++state)
         names.push_back(grid::cell_status_name(static_cast<grid::CellStatus>(state)));
     return names;
 }
@@ -70,7 +71,7 @@ ApiJson profile_json(const OpenGrid& grid, const std::vector<grid::GeoPoint>& po
     ApiJson json = head_of(grid);
     json["length_m"] = length_m;
     json["heights_m"] = view.spec->levels_m;
-    json["state_names"] = state_names();
+    json["state_names"] = state_names(grid.moment);
     json["points"] = ApiJson::array();
     for (std::size_t i = 0; i < points.size(); ++i) {
         ApiJson point{{"distance_m",
