@@ -1,6 +1,8 @@
 // Tests the catalog and the cache after real files went through the whole pipeline.
 #include "pipeline/ingest/ingest.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,12 @@
 #include <unistd.h>
 
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+#include "stormcellar/grid/gridder.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/level2/encode.h"
+#include "stormcellar/retrieve/dealias.h"
 #include "tests/level2/wire.h"
 #include "tests/pipeline/small_house.h"
 #include "tests/testing/file_bytes.h"
@@ -16,6 +24,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 using catalog::FileState;
+using level2::Moment;
 
 class IngestTest : public SmallHouse {
   protected:
@@ -98,6 +107,75 @@ TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
               std::vector<std::string>{"KOKX: maintenance mandatory, receiver alarm"});
     EXPECT_EQ(troubles_of("mosaic-northeast/KBGM20100911_012056_V03.gz", "KBGM"),
               std::vector<std::string>{});
+}
+
+// The grid of VELD has the cells that the gridder makes of the dealiased volume. The grids of the
+// other moments are those without VELD.
+TEST_F(IngestTest, TheDealiasedVelocityIsAGridOfItsOwn) {
+    STORMCELLAR_NEED_DATA();
+    const fs::path path = testing::real_file("volumes/KTLX19990503_235621.gz");
+    IngestOptions options = small_grid();
+    options.moments = {Moment::ref, Moment::vel, Moment::veld};
+    Ingestor ingestor(catalog_, store_, options);
+    const auto outcome = ingestor.ingest(path, false);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result(), IngestResult::gridded);
+    EXPECT_EQ(outcome->grids.size(), 3U);
+    const auto stored = [&](Moment moment) {
+        const auto entries = *store_.list("KTLX", moment, std::nullopt, std::nullopt);
+        EXPECT_EQ(entries.size(), 1U);
+        auto file = cache::GridFile::open(entries.at(0).path);
+        EXPECT_TRUE(file && file->verify());
+        EXPECT_EQ(file->description().moment, moment);
+        return grid::to_dense(file->view());
+    };
+    const auto dealiased = retrieve::dealiased_velocities(level2::decode_file(path)->volume,
+                                                          retrieve::Dealiasing::automatic)
+                               .value();
+    const auto antenna = level2::antenna_position(dealiased).value();
+    const grid::SitePosition site{"KTLX", antenna.latitude_deg, antenna.longitude_deg,
+                                  antenna.altitude_m};
+    const auto file = cache::GridFile::open(
+        store_.list("KTLX", Moment::veld, std::nullopt, std::nullopt)->at(0).path);
+    const auto geometry = grid::make_column_geometry(site, file->description().spec);
+    const auto made = grid::make_grid(dealiased, site, **geometry, {Moment::veld, 0, 1, {}});
+    ASSERT_TRUE(made);
+    const auto bricks = grid::BrickGrid::from(*made, grid::default_quantization(Moment::veld));
+    const grid::Grid expected = grid::to_dense(bricks.view());
+    const grid::Grid velocities = stored(Moment::veld);
+    EXPECT_EQ(velocities.status, expected.status);
+    EXPECT_EQ(velocities.values, expected.values);
+    EXPECT_GT(std::ranges::count(velocities.status, grid::CellStatus::ambiguous), 10);
+    EXPECT_EQ(std::ranges::count(stored(Moment::vel).status, grid::CellStatus::ambiguous), 0);
+    EXPECT_GT(std::ranges::count(stored(Moment::ref).status, grid::CellStatus::value), 1000);
+    for (const float value : velocities.values)
+        ASSERT_LE(std::abs(value), 120) << "no wind of a tornado is faster";
+}
+
+TEST_F(IngestTest, AVolumeWithoutVelocitiesHasNoGridOfVeldAndIsNotRejected) {
+    STORMCELLAR_NEED_DATA();
+    level2::Volume volume =
+        level2::decode_file(testing::real_file("sequence-kbgm/KBGM20050822_024414.gz"))->volume;
+    for (level2::Sweep& sweep : volume.sweeps)
+        std::erase_if(sweep.moments,
+                      [](const level2::SweepMoment& kind) { return kind.moment != Moment::ref; });
+    const auto encoded = level2::encode(volume);
+    ASSERT_TRUE(encoded) << encoded.error().message;
+    const fs::path path = put("KBGM20050822_024414", encoded->joined());
+    for (const std::vector<Moment>& moments :
+         {std::vector{Moment::ref, Moment::veld}, std::vector{Moment::veld}}) {
+        const testing::TemporaryDirectory directory;
+        auto catalog = catalog::CatalogWriter::open(directory / "catalog");
+        IngestOptions options = small_grid();
+        options.moments = moments;
+        Ingestor ingestor(*catalog, store_, options);
+        const auto outcome = ingestor.ingest(path, false);
+        ASSERT_TRUE(outcome) << outcome.error().message;
+        EXPECT_NE(outcome->result(), IngestResult::rejected);
+        EXPECT_EQ(outcome->grids.size(), moments.size() - 1);
+        EXPECT_TRUE(store_.list("KBGM", Moment::veld, std::nullopt, std::nullopt)->empty());
+        EXPECT_EQ(catalog->list("KBGM", {})->at(0).state, FileState::complete);
+    }
 }
 
 TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {

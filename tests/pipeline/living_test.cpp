@@ -104,7 +104,7 @@ TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
 // this moment, even while old sweeps stand in for some moments.
 TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
     using level2::Moment;
-    const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho};
+    const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho, Moment::veld};
     House together(directory_ / "together", true, {}, moments);
     std::vector<std::unique_ptr<House>> alone;
     for (const Moment moment : moments) {
