@@ -1,6 +1,8 @@
 // Tests how the options of `stormcellar grid` are interpreted.
 #include "cli/grid/grid_request.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
@@ -118,6 +120,61 @@ TEST(GridRequest, WhatTheSiteMakesImpossibleIsBadUsage) {
     ASSERT_FALSE(polar);
     EXPECT_EQ(polar.error().code, ErrorCode::bad_argument);
     EXPECT_FALSE(spec_for("--projection lat-lon", 90, 0));
+}
+
+Result<GridRequest> request_for(const std::string& arguments, bool takes_moments = true) {
+    GridOptions options;
+    options.takes_moments = takes_moments;
+    CLI::App app;
+    add_grid_options(app, options);
+    app.parse("file -o out.nc " + arguments);
+    return parse_request(options);
+}
+
+TEST(GridRequest, DealiasTurnsVelIntoVeld) {
+    using level2::Moment;
+    using retrieve::Dealiasing;
+    using Moments = std::vector<Moment>;
+    const auto expect = [](const char* arguments, const Moments& moments, Dealiasing rung) {
+        const auto request = request_for(arguments);
+        ASSERT_TRUE(request) << arguments << ": " << request.error().message;
+        EXPECT_EQ(request->moments(), moments) << arguments;
+        EXPECT_EQ(request->dealiasing, rung) << arguments;
+    };
+    expect("--moment VEL", {Moment::vel}, Dealiasing::automatic);
+    expect("--moment VELD", {Moment::veld}, Dealiasing::automatic);
+    expect("--moment VEL --dealias off", {Moment::vel}, Dealiasing::off);
+    expect("--moment REF --dealias off", {Moment::ref}, Dealiasing::off);
+    expect("--moment VEL --dealias auto", {Moment::veld}, Dealiasing::automatic);
+    expect("--moment VEL --dealias profile", {Moment::veld}, Dealiasing::profile);
+    expect("--moment VELD --dealias region", {Moment::veld}, Dealiasing::region);
+    expect("--moment REF,VEL --dealias anchored", {Moment::ref, Moment::veld},
+           Dealiasing::anchored);
+    expect("--moment VELD,VEL,REF --dealias region", {Moment::ref, Moment::vel, Moment::veld},
+           Dealiasing::region);
+    const auto all = request_for("--moment all --dealias auto");
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->moments().back(), Moment::veld);
+    EXPECT_EQ(std::ranges::count(all->moments(), Moment::vel), 0);
+    EXPECT_EQ(std::ranges::count(request_for("--moment all")->moments(), Moment::veld), 0);
+}
+
+TEST(GridRequest, DealiasThatMakesNoSenseIsBadUsage) {
+    const std::vector<std::pair<const char*, const char*>> said = {
+        {"--moment VEL --dealias strong",
+         "--dealias 'strong' is no way to dealias; it must be off, auto, profile, region or "
+         "anchored"},
+        {"--moment REF --dealias auto", "--dealias needs --moment VEL"},
+        {"--moment SW,RHO --dealias region", "--dealias needs --moment VEL"},
+        {"--moment VELD --dealias off",
+         "--dealias off does not go with --moment VELD, the dealiased velocity"},
+    };
+    for (const auto& [arguments, message] : said) {
+        const auto request = request_for(arguments);
+        ASSERT_FALSE(request) << arguments;
+        EXPECT_EQ(request.error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(request.error().message, message);
+    }
 }
 
 }  // namespace

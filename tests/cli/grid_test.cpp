@@ -178,6 +178,30 @@ TEST_F(GridTest, AllMomentsOfAVolumeAreOneFile) {
     expect_usage({of_1999, "--moment", "REF,VEL", "--tolerance", "0.5 dB"}, "VEL is in");
 }
 
+TEST_F(GridTest, DealiasedVelocityIsAMomentOfItsOwn) {
+    STORMCELLAR_NEED_DATA();
+    const std::string of_1999 = volume("KTLX19990503_235621.gz");
+    const auto cells_of = [&](const Words& arguments, const char* moment) {
+        const auto json = json_of(grid(with({of_1999, "-o", file("out.nc"), "--json"}, arguments)));
+        EXPECT_EQ(json.at("moment"), moment);
+        return json.at("cells");
+    };
+    const auto raw = cells_of({"--moment", "VEL"}, "VEL");
+    const auto dealiased = cells_of({"--moment", "VEL", "--dealias", "region"}, "VELD");
+    EXPECT_FALSE(raw.contains("ambiguous"));
+    EXPECT_GT(dealiased.at("ambiguous"), 10);
+    EXPECT_GT(dealiased.at("value"), raw.at("value").get<int>() / 2);
+    EXPECT_EQ(dealiased.at("not_seen"), raw.at("not_seen"));
+    const ProgramResult text = grid({of_1999, "-o", file("out.nc"), "--moment", "VELD"});
+    EXPECT_EQ(text.status, 0) << text.err;
+    EXPECT_NE(text.out.find("% ambiguous"), std::string::npos) << text.out;
+    fs::remove(file("out.nc"));
+    expect_usage({of_1999, "--moment", "VEL", "--dealias", "strong"},
+                 "it must be off, auto, profile, region or anchored");
+    expect_usage({of_1999, "--moment", "VELD", "--dealias", "off"}, "--dealias off does not go");
+    expect_usage({of_1999, "--dealias", "auto"}, "--dealias needs --moment VEL");
+}
+
 TEST_F(GridTest, AFrameTimeChoosesSweepsAndIsNamed) {
     STORMCELLAR_NEED_DATA();
     const Words common = {

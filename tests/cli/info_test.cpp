@@ -105,6 +105,29 @@ TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
     EXPECT_EQ(*read_file(to), first) << "replaced by the same bytes";
 }
 
+TEST_F(InfoTest, WritesTheDealiasedVelocityIfAsked) {
+    STORMCELLAR_NEED_DATA();
+    const auto file = testing::real_file("volumes/KTLX19990503_235621.gz");
+    const std::string to = directory_ / "x.nc";
+    const auto has_field = [&](const Words& arguments) {
+        const ProgramResult ran = run(with({"info", file, "--to", to}, arguments));
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        const auto bytes = *read_file(to);
+        const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        EXPECT_NE(text.find("VEL_status"), std::string::npos);
+        return text.find("VEL_dealiased_status") != std::string::npos;
+    };
+    EXPECT_FALSE(has_field({}));
+    EXPECT_FALSE(has_field({"--dealias", "off"}));
+    EXPECT_TRUE(has_field({"--dealias", "region"}));
+    const ProgramResult unknown = info({file, "--to", to, "--dealias", "strong"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("it must be off, auto, profile, region or anchored"),
+              std::string::npos)
+        << unknown.err;
+    EXPECT_EQ(info({file, "--dealias", "region"}).status, 2) << "needs --to";
+}
+
 TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
     STORMCELLAR_NEED_DATA();
     const auto file = testing::real_file("volumes/KBBX20060113_170337.gz");

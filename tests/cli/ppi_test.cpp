@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/degree.h"
+#include "stormcellar/base/file_system.h"
 #include "tests/cli/files_and_service.h"
 
 namespace stormcellar::cli {
@@ -108,6 +109,30 @@ TEST_F(Ppi, TheMotionIsSaidOrItsLackIs) {
     EXPECT_EQ(grid.status, 0) << grid.err;
     EXPECT_THAT(grid.out, HasSubstr("note: storm motion 22"));
     EXPECT_THAT(grid.out, HasSubstr("right mover of the wind profile"));
+}
+
+TEST_F(Ppi, DealiasDrawsOtherVelocitiesInFrameAndLoop) {
+    const std::string file = volume("KTLX19990503_235621.gz");
+    const auto draw = [&](const char* name, const Words& more) {
+        const auto drawn = run(with({"frame", file, "--product", "ppi", "-o", out(name)}, more));
+        EXPECT_EQ(drawn.status, 0) << drawn.err;
+        return *read_file(out(name));
+    };
+    const auto raw = draw("raw.png", {"--moment", "VEL"});
+    const auto dealiased = draw("a.png", {"--moment", "VEL", "--dealias", "region"});
+    EXPECT_NE(raw, dealiased);
+    EXPECT_EQ(draw("b.png", {"--moment", "VELD", "--dealias", "region"}), dealiased);
+    const auto refused = run({"frame", file, "--dealias", "region", "-o", out("no.png")});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--dealias is for velocity; the moment is REF"));
+    const auto unknown =
+        run({"loop", file, "--moment", "VEL", "--dealias", "strong", "-o", out("no.webp")});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("it must be off, auto, profile, region or anchored"));
+    const auto json = json_of(
+        run({"loop", file, "--product", "ppi", "--all-elevations", "--moment", "VEL", "--dealias",
+             "region", "--cache", out("own"), "--json", "--quiet", "-o", out("up/")}));
+    EXPECT_GT(json["frames"], 5);
 }
 
 TEST_F(Ppi, OfADomainIsThatOfItsRawFile) {

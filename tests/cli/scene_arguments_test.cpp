@@ -194,6 +194,28 @@ TEST(SceneOptions, AStormMotionIsForTheStormRelativeVelocity) {
                 ::testing::HasSubstr("'fast' is no storm motion; it must be auto, right, left"));
 }
 
+TEST(SceneOptions, DealiasDrawsTheDealiasedVelocity) {
+    using level2::Moment;
+    EXPECT_EQ(scene_of(parse("--moment VEL"))->moment, Moment::vel);
+    EXPECT_EQ(scene_of(parse("--moment VEL --dealias off"))->moment, Moment::vel);
+    EXPECT_EQ(scene_of(parse("--moment REF --dealias off"))->moment, Moment::ref);
+    EXPECT_EQ(scene_of(parse("--moment VELD"))->moment, Moment::veld);
+    for (const char* rung : {"auto", "profile", "region", "anchored"}) {
+        const std::string dealias = std::string(" --dealias ") + rung;
+        EXPECT_EQ(scene_of(parse("--moment VEL" + dealias))->moment, Moment::veld);
+        EXPECT_EQ(scene_of(parse("--moment VELD" + dealias))->moment, Moment::veld);
+        const auto refused = scene_of(parse("--moment REF" + dealias));
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(refused.error().message, "--dealias is for velocity; the moment is REF");
+    }
+    const auto unknown = scene_of(parse("--moment VEL --dealias strong"));
+    ASSERT_FALSE(unknown);
+    EXPECT_THAT(unknown.error().message,
+                ::testing::HasSubstr("'strong' is no way to dealias; it must be off, auto, "
+                                     "profile, region or anchored"));
+}
+
 // 2026-11-25: a message about a number did not name the option of the number.
 TEST(SceneOptions, AnOptionOutOfItsRangeIsNamed) {
     const std::vector<std::pair<const char*, const char*>> said = {

@@ -84,6 +84,16 @@ TEST_F(SceneFileTest, EveryKeyOfAFlatPictureReachesTheScene) {
     EXPECT_EQ(tops->echo_top_dbz, 30);
 }
 
+TEST_F(SceneFileTest, TheKeyDealiasDrawsTheDealiasedVelocity) {
+    ASSERT_TRUE(read("[picture]\nmoment = \"VEL\"\ndealias = \"region\"\n"));
+    EXPECT_EQ(settings_.scene.dealias, "region");
+    const auto scene = scene_of(settings_.scene);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->moment, level2::Moment::veld);
+    EXPECT_THAT(complaint("[picture]\nmoment = \"VEL\"\ndealias = \"strong\"\n"),
+                HasSubstr("it must be off, auto, profile, region or anchored"));
+}
+
 TEST_F(SceneFileTest, EveryKeyOfPlanAndLoopIsTaken) {
     const Status status = read(
         "[plan]\ntolerance = \"dE 2\"\n[plan.effects]\nvalue_span = \"on\"\n"
@@ -125,6 +135,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"picture", "product = 3"},
         {"picture", "product = \"\""},
         {"picture", "moment = \"DBZ\""},
+        {"picture", "dealias = \"strong\""},
+        {"picture", "dealias = true"},
         {"picture", "colours = \"none-such\""},
         {"picture", "colours = \"none-such.pal\""},
         {"picture", "height_km = 61"},
