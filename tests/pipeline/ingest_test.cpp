@@ -2,6 +2,7 @@
 #include "pipeline/ingest/ingest.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -15,7 +16,7 @@
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/level2/encode.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "tests/level2/wire.h"
 #include "tests/pipeline/small_house.h"
 #include "tests/testing/file_bytes.h"
@@ -129,9 +130,10 @@ TEST_F(IngestTest, TheDealiasedVelocityIsAGridOfItsOwn) {
         EXPECT_EQ(file->description().moment, moment);
         return grid::to_dense(file->view());
     };
-    const auto dealiased = retrieve::dealiased_velocities(level2::decode_file(path)->volume,
-                                                          retrieve::Dealiasing::automatic)
-                               .value();
+    const level2::Volume dealiased =
+        retrieve::derived_velocities(level2::decode_file(path)->volume, std::array{Moment::veld})
+            .value()
+            .volume;
     const auto antenna = level2::antenna_position(dealiased).value();
     const grid::SitePosition site{"KTLX", antenna.latitude_deg, antenna.longitude_deg,
                                   antenna.altitude_m};

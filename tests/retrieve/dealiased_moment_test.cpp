@@ -1,5 +1,6 @@
 // Tests that the moment VELD is VEL plus whole turns of the Nyquist circle, and nothing else.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "tests/retrieve/folded_volume.h"
 #include "tests/testing/data.h"
 
@@ -166,7 +168,8 @@ TEST(DealiasedMoment, OfAVolumeWithoutVelocitiesIsNotFound) {
             ASSERT_FALSE(added);
             EXPECT_EQ(added.error().code, ErrorCode::not_found);
             EXPECT_EQ(added.error().message, "the volume has no velocities");
-            EXPECT_EQ(dealiased_velocities(volume, rung).error().code, ErrorCode::not_found);
+            EXPECT_EQ(derived_velocities(volume, std::array{Moment::veld}, {rung, {}}).error().code,
+                      ErrorCode::not_found);
             EXPECT_FALSE(level2::holds(volume, Moment::veld));
         }
     }
@@ -271,8 +274,10 @@ TEST(DealiasingName, ComesBackOrIsRefusedWithAllNames) {
 TEST(DealiasedVelocities, HasOnlyVelocitiesAndTheSameRadials) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume measured = volume_in("volumes/KTLX19990503_235621.gz");
-    const auto made = dealiased_velocities(measured, Dealiasing::region);
-    ASSERT_TRUE(made) << made.error().message;
+    const auto derived =
+        derived_velocities(measured, std::array{Moment::veld}, {Dealiasing::region, {}});
+    ASSERT_TRUE(derived) << derived.error().message;
+    const level2::Volume* const made = &derived->volume;
     EXPECT_EQ(made->station, measured.station);
     EXPECT_EQ(made->vcp, measured.vcp);
     EXPECT_EQ(made->start_time(), measured.start_time());

@@ -1,4 +1,5 @@
 // Tests the lists of volumes and sweeps, and which sweeps are marked for pictures.
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,7 @@
 
 #include "grid/place/source_volume.h"
 #include "stormcellar/level2/decode.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "tests/web/served_volumes.h"
 #include "web/data/grids/packed_sweep.h"
 #include "web/service/sources.h"
@@ -100,7 +101,7 @@ TEST(ApiSweeps, HaveTheDealiasedVelocityBesideTheVelocity) {
     const auto volume =
         level2::decode_file(testing::real_file("volumes/KTLX20170101_030027_V06"))->volume;
     const auto dealiased =
-        retrieve::dealiased_velocities(volume, retrieve::Dealiasing::automatic).value();
+        retrieve::derived_velocities(volume, std::array{level2::Moment::veld}).value().volume;
     int derived = 0;
     const auto list = nlohmann::json::parse(body_of(doors.get(path))).at("sweeps");
     for (const auto& sweep : list) {
