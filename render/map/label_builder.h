@@ -5,6 +5,7 @@
 // Threads   One thread at a time.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct LabelText {
 struct LabelBlock {
     Rect box;
     Rgba8 color{};
-    bool hatched = false;
+    std::optional<Rgba8> lines = {};  // the block is hatched with lines of this color
 };
 
 // The parts that are drawn around a picture.
@@ -65,8 +66,8 @@ class LabelBuilder {
     // empty or has no room at all.
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
-    void block(const Rect& box, Rgba8 color, bool hatched = false) {
-        parts_.blocks.push_back({box, color, hatched});
+    void block(const Rect& box, Rgba8 color, std::optional<Rgba8> lines = {}) {
+        parts_.blocks.push_back({box, color, lines});
     }
     void outline(const Rect& box) { parts_.outlines.push_back(box); }
 

@@ -277,7 +277,7 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) {
     for (const LabelBlock& block : layout.blocks) {
-        if (!block.hatched) {
+        if (!block.lines) {
             canvas.fill(block.box, block.color);
             continue;
         }
@@ -285,7 +285,7 @@ void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout) 
                      block.color);
         for (int y = 0; y < swatch.height; ++y) {
             for (int x = 0; x < swatch.width; ++x) {
-                swatch.set(x, y, hatched(block.color, layout.shades->hatch, x, y, layout.scale));
+                swatch.set(x, y, hatched(block.color, *block.lines, x, y, layout.scale));
             }
         }
         canvas.place(swatch, static_cast<int>(block.box.x), static_cast<int>(block.box.y));

@@ -28,34 +28,38 @@ void add_volume_rows(const Scene& scene, Legend& legend) {
     const Shades& shades = shades_of(scene.theme);
     if (scene.haze) {
         legend.heading = "Coverage";
-        legend.rows = {{"air seen", shades.land.seen, false},
-                       {"air not seen", veiled(shades.land.seen, shades.haze, most_haze), false},
-                       {"nothing seen", shades.land.not_seen, true}};
+        legend.rows = {{"air seen", shades.land.seen},
+                       {"air not seen", veiled(shades.land.seen, shades.haze, most_haze)},
+                       {"nothing seen", shades.land.not_seen, shades.hatch}};
     } else {
         legend.heading = "Coverage (ground)";
-        legend.rows = {{"seen below " + height, shades.land.seen, false},
-                       {"seen above " + height, shades.land.seen_aloft, false},
-                       {"not seen", shades.land.not_seen, true}};
+        legend.rows = {{"seen below " + height, shades.land.seen},
+                       {"seen above " + height, shades.land.seen_aloft},
+                       {"not seen", shades.land.not_seen, shades.hatch}};
     }
     legend.notes = {clear_words(scene, "and"), "are clear"};
+    if (level2::facts_of(scene.moment).is_derived) legend.notes.front() += ", ambiguous";
 }
 
 void add_flat_rows(const Scene& scene, Legend& legend) {
     const ProductFacts& facts = facts_of(scene.product);
     const Shades& shades = shades_of(scene.theme);
     if (facts.may_be_higher) {
-        legend.rows.push_back({"dotted: at least", shades.page, false});
+        legend.rows.push_back({"dotted: at least", shades.page});
     }
     if (facts.threshold_dbz != nullptr) {
-        legend.rows.push_back({fmt::format("no echo or < {:g} dBZ", scene.*facts.threshold_dbz),
-                               shades.land.seen, false});
+        legend.rows.push_back(
+            {fmt::format("no echo or < {:g} dBZ", scene.*facts.threshold_dbz), shades.land.seen});
     } else if (facts.has_echo_states) {
-        legend.rows.push_back({clear_words(scene, "or"), shades.land.seen, false});
+        legend.rows.push_back({clear_words(scene, "or"), shades.land.seen});
     }
     if (facts.has_echo_states) {
-        legend.rows.push_back({"range folded", colors_of(scene).range_folded, false});
+        const Rgba8 folded = colors_of(scene).range_folded;
+        legend.rows.push_back({"range folded", folded});
+        if (level2::facts_of(scene.moment).is_derived)
+            legend.rows.push_back({"ambiguous", shades.land.seen, folded});
     }
-    legend.rows.push_back({"not seen", shades.land.not_seen, true});
+    legend.rows.push_back({"not seen", shades.land.not_seen, shades.hatch});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // Threads   Plain values and a pure function.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace stormcellar::render {
 struct LegendRow {
     std::string text;
     Rgba8 color{};
-    bool hatched = false;
+    std::optional<Rgba8> lines = {};  // the color is hatched with lines of this color
 };
 
 struct Legend {

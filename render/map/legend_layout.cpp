@@ -27,7 +27,7 @@ double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& r
 void put_swatch(LabelBuilder& builder, const LegendRow& row, double x, double baseline) {
     const double side = std::round(builder.scaled(swatch_side));
     builder.block({std::round(x), std::round(baseline - side + builder.scaled(2)), side, side},
-                  row.color, row.hatched);
+                  row.color, row.lines);
 }
 
 void lay_out_upright_bar(LabelBuilder& builder, const Legend& legend, const Rect& box) {

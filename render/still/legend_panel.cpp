@@ -53,9 +53,11 @@ Result<Image> draw_legend_panel(const StillMap& map) {
     std::vector<PanelState> states;
     if (facts_of(map.scene.product).has_echo_states)
         states.push_back({"range folded", table.range_folded});
-    if (level2::facts_of(map.scene.moment).is_derived)
-        states.push_back({"ambiguous", over(overlay_color(grid::CellStatus::ambiguous, 0, table),
-                                            shades.land.seen)});
+    if (facts_of(map.scene.product).has_echo_states &&
+        level2::facts_of(map.scene.moment).is_derived) {
+        const Rgba8 ambiguous = overlay_color(grid::CellStatus::ambiguous, 0, table);
+        states.push_back({"ambiguous", over(ambiguous, shades.land.seen)});
+    }
     states.push_back({"not seen", over(unseen_veil, shades.text)});
 
     double widest = 0;

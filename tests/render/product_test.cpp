@@ -1,5 +1,7 @@
 #include "stormcellar/render/product.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,6 +56,8 @@ TEST(ProductLegend, SaysWhatIsNotInTheColorBar) {
     EXPECT_THAT(
         legend_texts(scene_of(Product::echo_top, Moment::ref)),
         ElementsAre("dotted: at least", "no echo or < 18.5 dBZ", "range folded", "not seen"));
+    EXPECT_THAT(legend_texts(scene_of(Product::ppi, Moment::veld)),
+                ElementsAre("no echo", "range folded", "ambiguous", "not seen"));
     EXPECT_THAT(legend_texts(scene_of(Product::lowest_seen, Moment::ref)), ElementsAre("not seen"));
 }
 
@@ -67,6 +71,18 @@ TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
     const Rgba8 hazy = legend_of(scene).rows[1].color;
     EXPECT_GT(hazy[0], shades::dark.land.seen[0]);
     EXPECT_LT(hazy[0], shades::dark.haze[0]);
+}
+
+// The swatch looks like ambiguous gates in the picture (render/products/ground.h).
+TEST(ProductLegend, HatchesAmbiguousInTheColorOfRangeFolded) {
+    const Scene scene = scene_of(Product::composite, Moment::veld);
+    const Legend legend = legend_of(scene);
+    const auto row = std::ranges::find(legend.rows, "ambiguous", &LegendRow::text);
+    ASSERT_NE(row, legend.rows.end());
+    EXPECT_EQ(row->color, shades::dark.land.seen);
+    EXPECT_EQ(row->lines, colors_of(scene).range_folded);
+    const Legend volume = legend_of(scene_of(Product::volume, Moment::veld));
+    EXPECT_EQ(volume.notes.front(), "no echo, ambiguous") << "the volume does not show it";
 }
 
 TEST(BarHeading, IsTheUnitOrElseTheMoment) {
