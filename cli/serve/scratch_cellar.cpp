@@ -1,6 +1,7 @@
 #include "cli/serve/scratch_cellar.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -23,10 +24,14 @@ Status add_file(const fs::path& file, std::set<fs::path>& files) {
     return {};
 }
 
-pipeline::IngestOptions options_for_all_moments(int threads) {
+// Returns options to grid all moments that are derived, or all that are not.
+pipeline::IngestOptions options_for_moments(bool are_derived, int threads) {
     pipeline::IngestOptions options;
     options.stations = std::make_shared<StationRule>(StationRule::any(StationRule::no_limit));
-    options.moments.assign(std::begin(level2::all_moments), std::end(level2::all_moments));
+    options.moments.clear();
+    std::ranges::copy_if(
+        level2::all_moments, std::back_inserter(options.moments),
+        [&](level2::Moment moment) { return level2::facts_of(moment).is_derived == are_derived; });
     options.decode_threads = threads;
     options.grid_threads = threads;
     return options;
@@ -58,7 +63,8 @@ ScratchCellar::ScratchCellar(ScratchDirectory scratch, catalog::CatalogWriter ca
     : scratch_(std::move(scratch)),
       catalog_(std::move(catalog)),
       store_(std::move(store)),
-      ingestor_(catalog_, store_, options_for_all_moments(threads)) {}
+      ingestor_(catalog_, store_, options_for_moments(false, threads)),
+      deriver_(catalog_, store_, options_for_moments(true, threads)) {}
 
 Result<std::unique_ptr<ScratchCellar>> ScratchCellar::make(int threads) {
     auto scratch = ScratchDirectory::make();
@@ -92,6 +98,12 @@ Result<std::size_t> ScratchCellar::take(const fs::path& file) {
                                    outcome->reason.empty() ? "" : ": ", outcome->reason));
     }
     return outcome->grids.size();
+}
+
+Status ScratchCellar::derive(const fs::path& file) {
+    const auto outcome = deriver_.ingest_again(file);
+    if (!outcome) return pass_on(outcome);
+    return {};
 }
 
 }  // namespace stormcellar::cli

@@ -30,15 +30,18 @@ namespace stormcellar::cli {
 
 class ScratchCellar {
   public:
-    // Makes the directory. All moments of the volumes will be gridded. Errors: io if it cannot be
-    // made.
+    // Makes the directory. Errors: io if it cannot be made.
     static Result<std::unique_ptr<ScratchCellar>> make(int threads);
 
     [[nodiscard]] std::filesystem::path catalog() const { return scratch_.path() / "catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return scratch_.path() / "cache"; }
-    // Ingests one file. Returns the number of grids made; a note on stderr says why a file gives
-    // none. Errors: those of pipeline::Ingestor::ingest().
+    // Ingests one file, and grids all measured moments of its volumes. Returns the number of grids
+    // made; a note on stderr says why a file gives none. Errors: those of
+    // pipeline::Ingestor::ingest().
     Result<std::size_t> take(const std::filesystem::path& file);
+    // Grids the derived moments of a file that take() ingested before. Dealiasing takes time, which
+    // the first picture need not wait for. Errors: those of pipeline::Ingestor::ingest_again().
+    Status derive(const std::filesystem::path& file);
 
   private:
     ScratchCellar(ScratchDirectory scratch, catalog::CatalogWriter catalog,
@@ -48,6 +51,7 @@ class ScratchCellar {
     catalog::CatalogWriter catalog_;
     cache::StoreWriter store_;
     pipeline::Ingestor ingestor_;
+    pipeline::Ingestor deriver_;  // makes the grids of derived moments alone
 };
 
 }  // namespace stormcellar::cli

@@ -26,9 +26,16 @@ ServedFiles::~ServedFiles() {
     if (thread_.joinable()) thread_.join();
 }
 
+Result<std::size_t> ServedFiles::take_next() {
+    const std::filesystem::path& file = files_[next_++];
+    auto grids = cellar_->take(file);
+    if (grids && *grids > 0) gridded_.push_back(file);
+    return grids;
+}
+
 Status ServedFiles::take_first() {
     while (next_ < files_.size()) {
-        const auto grids = cellar_->take(files_[next_++]);
+        const auto grids = take_next();
         if (!grids) return pass_on(grids);
         if (*grids > 0) return {};
     }
@@ -38,8 +45,12 @@ Status ServedFiles::take_first() {
 void ServedFiles::take_rest() {
     thread_ = std::thread([this] {
         while (next_ < files_.size() && !is_stopping_) {
-            const auto grids = cellar_->take(files_[next_++]);
+            const auto grids = take_next();
             if (!grids) report_error(grids.error());
+        }
+        for (std::size_t i = 0; i < gridded_.size() && !is_stopping_; ++i) {
+            if (const Status derived = cellar_->derive(gridded_[i]); !derived)
+                report_error(derived.error());
         }
     });
 }

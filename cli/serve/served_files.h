@@ -31,7 +31,8 @@ class ServedFiles {
     ServedFiles& operator=(const ServedFiles&) = delete;
     ~ServedFiles();
 
-    // Ingests the remaining files on another thread.
+    // Ingests the remaining files on another thread, and then grids the derived moments of all
+    // files.
     void take_rest();
     [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
 
@@ -39,10 +40,13 @@ class ServedFiles {
     ServedFiles(std::unique_ptr<ScratchCellar> cellar, std::vector<std::filesystem::path> files)
         : cellar_(std::move(cellar)), files_(std::move(files)) {}
     Status take_first();
+    Result<std::size_t> take_next();
 
     std::unique_ptr<ScratchCellar> cellar_;
     std::vector<std::filesystem::path> files_;
     std::size_t next_ = 0;
+    // Files that gave grids. Of the chunks of a volume, this is the one that completed it.
+    std::vector<std::filesystem::path> gridded_;
     std::atomic<bool> is_stopping_{false};
     std::thread thread_;
 };
