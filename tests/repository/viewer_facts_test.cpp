@@ -14,6 +14,7 @@
 
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
+#include "render/color/moment_look.h"
 #include "render/color/pal_words.h"
 #include "render/image/shades.h"
 #include "stormcellar/grid/grid_spec.h"
@@ -42,8 +43,13 @@ std::string_view mixing_of(level2::Circle circle) {
 std::string moments() {
     std::string text = "export const moments = {\n";
     for (const level2::MomentFacts& facts : level2::moment_facts) {
-        text += fmt::format("    {}: {{ unit: '{}', mixing: '{}', isDoppler: {} }},\n", facts.name,
-                            facts.units, mixing_of(facts.circle), facts.is_doppler);
+        text += fmt::format(
+            "    {}: {{\n        title: '{}',\n        unit: '{}',\n"
+            "        mixing: '{}',\n        isSigned: {},\n        isDoppler: {},\n"
+            "        isDerived: {},\n        measured: '{}',\n    }},\n",
+            facts.name, render::look_of(facts.moment).title, facts.units, mixing_of(facts.circle),
+            facts.is_signed, facts.is_doppler, facts.is_derived,
+            level2::moment_name(level2::measured_moment(facts.moment)));
     }
     return text + "} as const;\n";
 }
@@ -150,8 +156,9 @@ std::string facts() {
     return "// Facts that the page shares with the C++ source, written by "
            "tests/repository/viewer_facts_test.cpp: change\n"
            "// them there.\n\n"
-           "// Moments with their stored units ('1' for a number without one), and how cells are "
-           "mixed between their centers.\n" +
+           "// Moments in the order of their numbers in packed grids and sweeps, with their stored "
+           "units ('1' for a number\n// without one), and how cells are mixed between their "
+           "centers.\n" +
            moments() + "\n// Units by quantity, the usual one first.\nexport const units = {\n" +
            units_of("speed", &render::UnitFacts::of_speed) +
            units_of("distance", &render::UnitFacts::of_distance) +

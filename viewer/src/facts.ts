@@ -1,17 +1,81 @@
 // Facts that the page shares with the C++ source, written by tests/repository/viewer_facts_test.cpp: change
 // them there.
 
-// Moments with their stored units ('1' for a number without one), and how cells are mixed between their centers.
+// Moments in the order of their numbers in packed grids and sweeps, with their stored units ('1' for a number
+// without one), and how cells are mixed between their centers.
 export const moments = {
-    REF: { unit: 'dBZ', mixing: 'mean', isDoppler: false },
-    VEL: { unit: 'm/s', mixing: 'heaviest', isDoppler: true },
-    SW: { unit: 'm/s', mixing: 'mean', isDoppler: true },
-    ZDR: { unit: 'dB', mixing: 'mean', isDoppler: false },
-    PHI: { unit: 'degree', mixing: 'circle', isDoppler: false },
-    RHO: { unit: '1', mixing: 'mean', isDoppler: false },
-    CFP: { unit: 'dB', mixing: 'mean', isDoppler: false },
-    VELD: { unit: 'm/s', mixing: 'mean', isDoppler: true },
-    SRV: { unit: 'm/s', mixing: 'mean', isDoppler: true },
+    REF: {
+        title: 'Reflectivity',
+        unit: 'dBZ',
+        mixing: 'mean',
+        isSigned: false,
+        isDoppler: false,
+        isDerived: false,
+        measured: 'REF',
+    },
+    VEL: {
+        title: 'Radial velocity',
+        unit: 'm/s',
+        mixing: 'heaviest',
+        isSigned: true,
+        isDoppler: true,
+        isDerived: false,
+        measured: 'VEL',
+    },
+    SW: {
+        title: 'Spectrum width',
+        unit: 'm/s',
+        mixing: 'mean',
+        isSigned: false,
+        isDoppler: true,
+        isDerived: false,
+        measured: 'SW',
+    },
+    ZDR: {
+        title: 'Differential reflectivity',
+        unit: 'dB',
+        mixing: 'mean',
+        isSigned: false,
+        isDoppler: false,
+        isDerived: false,
+        measured: 'ZDR',
+    },
+    PHI: {
+        title: 'Differential phase',
+        unit: 'degree',
+        mixing: 'circle',
+        isSigned: false,
+        isDoppler: false,
+        isDerived: false,
+        measured: 'PHI',
+    },
+    RHO: {
+        title: 'Correlation coefficient',
+        unit: '1',
+        mixing: 'mean',
+        isSigned: false,
+        isDoppler: false,
+        isDerived: false,
+        measured: 'RHO',
+    },
+    CFP: {
+        title: 'Clutter filter power removed',
+        unit: 'dB',
+        mixing: 'mean',
+        isSigned: false,
+        isDoppler: false,
+        isDerived: false,
+        measured: 'CFP',
+    },
+    VELD: {
+        title: 'Dealiased velocity',
+        unit: 'm/s',
+        mixing: 'mean',
+        isSigned: true,
+        isDoppler: true,
+        isDerived: true,
+        measured: 'VEL',
+    },
 } as const;
 
 // Units by quantity, the usual one first.

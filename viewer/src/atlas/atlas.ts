@@ -6,7 +6,7 @@
 // The atlas has codes of eight bits (shown codes). Codes of two bytes are scaled to them by codeScale and codeOffset;
 // readings use the exact codes of the packed grid.
 
-import { BrickKind, PackedGrid, firstValueCode } from '../wire/packed_grid';
+import { BrickKind, PackedGrid, firstValueCode, mayHoldValues } from '../wire/packed_grid';
 
 export const paddedEdge = 18;
 
@@ -136,7 +136,7 @@ function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): numbe
             for (let dz = 0; dz < 2; ++dz) {
                 if (x + dx >= grid.bricks[0] || y + dy >= grid.bricks[1] || z + dz >= grid.bricks[2]) continue;
                 const brick = brickIndex(grid, x + dx, y + dy, z + dz);
-                if (grid.kind[brick] !== BrickKind.codes || grid.valueCount[brick] === 0) continue;
+                if (!mayHoldValues(grid, brick)) continue;
                 greatest = Math.max(greatest, grid.greatestCode[brick]!);
             }
         }
@@ -144,13 +144,36 @@ function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): numbe
     return greatest;
 }
 
+// Returns the least code of a value in a brick; Infinity if the brick also has ambiguous cells, and its codes are not
+// here.
+function leastOf(grid: PackedGrid, brick: number): number {
+    if (grid.leastCode[brick]! >= grid.firstCode) return grid.leastCode[brick]!;
+    if (grid.codes.length === 0) return Infinity;
+    const from = grid.block[brick]! * grid.brickEdge ** 3;
+    let least = Infinity;
+    for (let i = from; i < from + grid.brickEdge ** 3; ++i) {
+        const code = grid.codes[i]!;
+        if (code >= grid.firstCode && code < least) least = code;
+    }
+    return least;
+}
+
+// Returns the least and the greatest code of a value; the first is above the second if there is no value. The table of
+// a grid in parts does not tell the least value of a brick with ambiguous cells. The range then reaches as far below
+// zero as the greatest value is above it, because values of derived moments are signed.
 export function rangeOfCodes(grid: PackedGrid): [number, number] {
-    let least = 65535;
-    let greatest = 0;
+    let [least, greatest] = [65535, 0];
+    let isUnsure = false;
     for (let i = 0; i < grid.kind.length; ++i) {
-        if (grid.kind[i] !== BrickKind.codes || grid.valueCount[i] === 0) continue;
-        least = Math.min(least, grid.leastCode[i]!);
+        if (!mayHoldValues(grid, i)) continue;
+        const leastHere = leastOf(grid, i);
+        isUnsure ||= leastHere === Infinity;
+        least = Math.min(least, leastHere);
         greatest = Math.max(greatest, grid.greatestCode[i]!);
+    }
+    if (isUnsure) {
+        const zero = firstValueCode - grid.firstValue / grid.step;
+        least = Math.max(grid.firstCode, Math.min(least, Math.floor(2 * zero - greatest)));
     }
     return [least, greatest];
 }
@@ -219,7 +242,7 @@ function copyRuns(
             let to = corner + 2 * (((zs.to + z) * height + ys.to + y) * width + xs.to);
             for (let x = 0; x < xs.count; ++x, from += edge * edge, to += 2) {
                 const code = codes[from]!;
-                if (code < firstValueCode) continue;
+                if (code < grid.firstCode) continue;
                 texels[to] = shownOf[code]!;
                 texels[to + 1] = 255;
                 hasValues = true;
@@ -273,7 +296,7 @@ export function histogramOf(grid: PackedGrid, shownOf: Uint8Array): Uint32Array 
         const from = grid.block[brick]! * cells;
         for (let i = from; i < from + cells; ++i) {
             const code = grid.codes[i]!;
-            if (code >= firstValueCode) ++histogram[shownOf[code]!]!;
+            if (code >= grid.firstCode) ++histogram[shownOf[code]!]!;
         }
     }
     return histogram;

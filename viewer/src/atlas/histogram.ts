@@ -2,7 +2,7 @@
 // shown codes (eight bits) of its first halved grid.
 
 import { Atlas } from './atlas';
-import { BrickKind, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+import { PackedGrid, mayHoldValues, valueOf } from '../wire/packed_grid';
 
 // Returns the number of cells of each code; 0 for codes that are no values.
 export function countCodes(
@@ -14,16 +14,16 @@ export function countCodes(
         atlas.histogram.forEach(
             (count, shown) => (counts[Math.round(atlas.codeOffset + atlas.codeScale * shown)]! += count),
         );
-        counts.fill(0, 0, firstValueCode);
+        counts.fill(0, 0, grid.firstCode);
         return counts;
     }
     const cells = grid.brickEdge ** 3;
     for (let brick = 0; brick < grid.kind.length; ++brick) {
-        if (grid.kind[brick] !== BrickKind.codes || grid.valueCount[brick] === 0) continue;
+        if (!mayHoldValues(grid, brick)) continue;
         const from = grid.block[brick]! * cells;
         for (let i = from; i < from + cells; ++i) ++counts[grid.codes[i]!]!;
     }
-    counts.fill(0, 0, firstValueCode);
+    counts.fill(0, 0, grid.firstCode);
     return counts;
 }
 
@@ -38,7 +38,7 @@ export function histogramOf(
     const codes = Math.max(1, (high - low) / grid.step);
     const columns = Math.ceil(codes / Math.ceil(codes / most) - 1e-6);
     const histogram = new Uint32Array(columns);
-    for (let code = firstValueCode; code < counts.length; ++code) {
+    for (let code = grid.firstCode; code < counts.length; ++code) {
         if (counts[code] === 0) continue;
         const column = Math.floor(((valueOf(grid, code) - low) / (high - low)) * columns + 1e-6);
         if (column >= 0 && column < columns) histogram[column]! += counts[code]!;

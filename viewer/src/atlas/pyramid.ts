@@ -4,7 +4,7 @@
 // A level is a number of halvings. A column of bricks is all bricks above one place; its number is
 // x * (bricks along y) + y, as in the packed form.
 
-import { BrickKind, PackedGrid } from '../wire/packed_grid';
+import { PackedGrid, mayHoldValues } from '../wire/packed_grid';
 
 export const mostHalvings = 6;
 
@@ -24,7 +24,7 @@ export interface Pyramid {
 }
 
 function greatestOf(grid: PackedGrid): Uint16Array {
-    return grid.greatestCode.map((code, i) => (grid.kind[i] === BrickKind.codes && grid.valueCount[i]! > 0 ? code : 0));
+    return grid.greatestCode.map((code, i) => (mayHoldValues(grid, i) ? code : 0));
 }
 
 function halved(from: Level, layers: number): Level {

@@ -4,11 +4,11 @@
 // axis by 1-4-6-4-1.
 //
 // Reflectivity counts from 0 dBZ, or from the lowest color of the table if that is lower, up to 60 dBZ. A value of any
-// other moment counts as 30, and no echo as 0. Cells that were not seen or are range folded do not count. If no cell of
-// an average counts, the average is copied from the level below, or at the bottom from the lowest level that has an
-// average.
+// other moment counts as 30, and no echo as 0. Cells that were not seen, are range folded or ambiguous do not count. If
+// no cell of an average counts, the average is copied from the level below, or at the bottom from the lowest level that
+// has an average.
 
-import { BrickKind, CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+import { BrickKind, CellState, PackedGrid, valueOf } from '../wire/packed_grid';
 
 export const fallCellsAcross = 2;
 // Greatest difference between the two neighbors of a cell that a byte can hold. A byte b is a fall of c |c| times this
@@ -29,7 +29,7 @@ const weights = [1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16] as const;
 function valuesOfCodes(grid: PackedGrid, moment: string, lowestColor: number): Float32Array {
     const values = new Float32Array(grid.codeBytes === 1 ? 256 : 65536);
     const zero = Math.min(0, lowestColor);
-    for (let code = firstValueCode; code < values.length; ++code) {
+    for (let code = grid.firstCode; code < values.length; ++code) {
         values[code] =
             moment === 'REF' ? Math.min(highest - zero, Math.max(0, valueOf(grid, code) - zero)) : valueOfOthers;
     }
@@ -56,7 +56,7 @@ function addColumn(
             let code: number = CellState.noEcho;
             if (kind === BrickKind.codes) code = grid.codes[from + z]!;
             else if (kind === BrickKind.states) code = (grid.states[(from + z) >> 2]! >> (2 * ((from + z) & 3))) & 3;
-            if (code !== CellState.noEcho && code < firstValueCode) continue;
+            if (code !== CellState.noEcho && code < grid.firstCode) continue;
             sums[bz * edge + z]! += values[code]!;
             counts[bz * edge + z]! += 1;
         }

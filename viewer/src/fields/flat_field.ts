@@ -2,10 +2,10 @@
 // the products `cappi` and `composite` of pictures.
 //
 // A field has a state and a value for each of its places, x fastest, y from the south on. The value is 0 unless the
-// state is CellState.value.
+// state is a value.
 
 import { heightRange } from '../camera/geometry';
-import { CellState, PackedGrid, firstValueCode, valueOf } from '../wire/packed_grid';
+import { PackedGrid, stateOf, valueOf } from '../wire/packed_grid';
 import { levelCodes } from './level_codes';
 import { Mixer, mixingOf } from './status_rule';
 
@@ -19,8 +19,6 @@ export interface FlatField {
 export function emptyField(width: number, height: number): FlatField {
     return { width, height, states: new Uint8Array(width * height), values: new Float32Array(width * height) };
 }
-
-export const stateOfCode = (code: number): CellState => (code >= firstValueCode ? CellState.value : code);
 
 export interface LevelPair {
     lower: number;
@@ -52,13 +50,13 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
     for (let at = 0; at < lowers.length; ++at) {
         const [lower, upper] = [lowers[at]!, uppers[at]!];
         if (lower === upper) {
-            field.states[at] = stateOfCode(lower);
-            if (lower >= firstValueCode) field.values[at] = valueOf(grid, lower);
+            field.states[at] = stateOf(grid, lower);
+            if (lower >= grid.firstCode) field.values[at] = valueOf(grid, lower);
             continue;
         }
         mixer.clear();
-        mixer.add(stateOfCode(lower), valueOf(grid, lower), 1 - levels.upperShare);
-        mixer.add(stateOfCode(upper), valueOf(grid, upper), levels.upperShare);
+        mixer.add(stateOf(grid, lower), valueOf(grid, lower), 1 - levels.upperShare);
+        mixer.add(stateOf(grid, upper), valueOf(grid, upper), levels.upperShare);
         mixer.result();
         field.states[at] = mixer.state;
         field.values[at] = mixer.value;
@@ -67,7 +65,8 @@ export function planeField(grid: PackedGrid, moment: string, heightM: number): F
 }
 
 export function maximumField(grid: PackedGrid): FlatField {
-    // The greatest code is also the right state: values rank above range folded, no echo and not seen, in this order.
+    // The greatest code is also the right state: values rank above ambiguous, range folded, no echo and not seen, in
+    // this order.
     const greatest = new Uint16Array(grid.nx * grid.ny);
     const codes = new Uint16Array(greatest.length);
     for (let z = 0; z < grid.nz; ++z) {
@@ -76,8 +75,8 @@ export function maximumField(grid: PackedGrid): FlatField {
     }
     const field = emptyField(grid.nx, grid.ny);
     greatest.forEach((code, at) => {
-        field.states[at] = stateOfCode(code);
-        if (code >= firstValueCode) field.values[at] = valueOf(grid, code);
+        field.states[at] = stateOf(grid, code);
+        if (code >= grid.firstCode) field.values[at] = valueOf(grid, code);
     });
     return field;
 }

@@ -3,8 +3,8 @@
 
 import { heightRange } from '../camera/geometry';
 import { Place, Plane, cellSizeM, destination, geodesic, planeOf } from '../earth/projection';
-import { CellState, PackedGrid, codeAt, valueOf } from '../wire/packed_grid';
-import { FlatField, LevelPair, emptyField, levelsAbout, stateOfCode } from './flat_field';
+import { CellState, PackedGrid, codeAt, stateOf, valueOf } from '../wire/packed_grid';
+import { FlatField, LevelPair, emptyField, levelsAbout } from './flat_field';
 import { Mixer, mixingOf } from './status_rule';
 
 export interface Section {
@@ -57,8 +57,8 @@ function fillColumn(
         mixer.clear();
         for (let i = 0; i < 4; ++i) {
             const [lower, upper] = [corners.codes[i]![levels.lower]!, corners.codes[i]![levels.upper]!];
-            mixer.add(stateOfCode(lower), valueOf(grid, lower), corners.weights[i]! * (1 - levels.upperShare));
-            mixer.add(stateOfCode(upper), valueOf(grid, upper), corners.weights[i]! * levels.upperShare);
+            mixer.add(stateOf(grid, lower), valueOf(grid, lower), corners.weights[i]! * (1 - levels.upperShare));
+            mixer.add(stateOf(grid, upper), valueOf(grid, upper), corners.weights[i]! * levels.upperShare);
         }
         mixer.result();
         field.states[row * field.width + column] = mixer.state;

@@ -1,9 +1,10 @@
 // Finds state and value of a place between cells of a grid, by the status rule of pictures
 // (render/products/cell_mixer.h).
 //
-// The cells about a place give weights to the four states. The place is
+// The cells about a place give weights to the states. The place is
 //   - not seen if this state weighs more than all other states together, or if nothing has weight;
-//   - else range folded if this state weighs more than values, and more than no echo;
+//   - else range folded or ambiguous, whichever weighs more, if both together weigh more than values, and more than no
+//     echo;
 //   - else no echo if this state weighs more than values;
 //   - else the mean of the values alone. Phases average on a circle. Velocities take the heaviest value, because a grid
 //     does not say at which velocity they alias.
@@ -22,7 +23,7 @@ export class Mixer {
     state: CellState = CellState.notSeen; // of the last result()
     value = 0;
 
-    private weights = new Float64Array(4); // by state
+    private weights = new Float64Array(CellState.ambiguous + 1); // by state
     private values = new Float64Array(mostParts);
     private shares = new Float64Array(mostParts);
     private count = 0;
@@ -45,10 +46,13 @@ export class Mixer {
     // Puts the result into `state` and `value`.
     result(): void {
         const [notSeen, noEcho, folded, valued] = this.weights as unknown as [number, number, number, number];
-        const seen = noEcho + folded + valued;
+        const ambiguous = this.weights[CellState.ambiguous]!;
+        const unknown = folded + ambiguous;
+        const seen = noEcho + unknown + valued;
         this.value = 0;
         if (notSeen > seen || seen === 0) this.state = CellState.notSeen;
-        else if (folded > valued && folded > noEcho) this.state = CellState.rangeFolded;
+        else if (unknown > valued && unknown > noEcho)
+            this.state = folded >= ambiguous ? CellState.rangeFolded : CellState.ambiguous;
         else if (valued < noEcho) this.state = CellState.noEcho;
         else {
             this.state = CellState.value;

@@ -1,11 +1,11 @@
 // Reads a column of cells from the exact codes of a grid.
 
 import { cellSizeM } from '../earth/projection';
-import { PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { CellState, PackedGrid, codeAt, stateOf, valueOf } from '../wire/packed_grid';
 
 export interface LevelReading {
     heightM: number;
-    code: number;
+    state: CellState;
     value: number | null;
 }
 export interface ColumnReading {
@@ -27,11 +27,12 @@ export function readColumn(grid: PackedGrid, x: number, y: number): ColumnReadin
     for (let z = 0; z < grid.nz; ++z) {
         const code = codeAt(grid, x, y, z);
         const heightM = grid.levelsM[z]!;
-        const value = code >= firstValueCode ? valueOf(grid, code) : null;
-        reading.levels.push({ heightM, code, value });
+        const state = stateOf(grid, code);
+        const value = state === CellState.value ? valueOf(grid, code) : null;
+        reading.levels.push({ heightM, state, value });
         if (value !== null && (reading.greatest === null || value > reading.greatest.value))
             reading.greatest = { heightM, value };
-        if (code > 0) reading.seenM = [reading.seenM?.[0] ?? heightM, heightM];
+        if (state !== CellState.notSeen) reading.seenM = [reading.seenM?.[0] ?? heightM, heightM];
     }
     return reading;
 }

@@ -12,7 +12,7 @@ import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layer_passes';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
-import { Layers, echoLayers, isBelow, usualLayers, veilsFolded } from '../scene/layers';
+import { Layers, echoLayers, isBelow, sweepMoment, usualLayers, veilsFolded } from '../scene/layers';
 import { Place, Plane, planeOf } from '../earth/projection';
 import { ColorTable } from '../wire/color_tables';
 import { heightText, valueText } from '../tables/units';
@@ -329,7 +329,9 @@ export class LayerMaker {
     private sweepTold(shown: Shown): string {
         const station = this.stationOf(shown);
         const found = this.sweepOf(shown);
-        if (found) return texts.layers.sweepAt(found.drawn.station, cutText(found.row, found.rows));
+        const isDealiased = sweepMoment(this.app.state.layers, shown.moment) !== shown.moment;
+        const say = isDealiased ? texts.layers.dealiasedSweepAt : texts.layers.sweepAt;
+        if (found) return say(found.drawn.station, cutText(found.row, found.rows));
         const error = this.sweeps.errorOf(this.sweepKey(shown));
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
@@ -365,13 +367,17 @@ export class LayerMaker {
         return this.numbers.get(loaded)!;
     }
     private sweepKey(shown: Shown): string {
-        const { loaded, moment } = shown;
-        const { sweepDeg, sweepNumber } = this.app.state.layers;
+        const { loaded } = shown;
+        const { layers } = this.app.state;
+        const { sweepDeg, sweepNumber } = layers;
+        const moment = sweepMoment(layers, shown.moment);
         return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber].join(' ');
     }
     private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
-        const { sweepDeg, sweepNumber } = this.app.state.layers;
-        const { loaded, moment } = shown;
+        const { layers } = this.app.state;
+        const { sweepDeg, sweepNumber } = layers;
+        const { loaded } = shown;
+        const moment = sweepMoment(layers, shown.moment);
         const station = this.stationOf(shown);
         const fetch = async (): Promise<PlacedSweep> => {
             const { time, rows } = await this.rowsOf(shown, station);
@@ -396,7 +402,8 @@ export class LayerMaker {
     // there is none.
     private sweepOf(shown: Shown): PlacedSweep | null {
         if (this.app.state.layers.sweepDeg === null) return null;
-        const { loaded, moment } = shown;
+        const { loaded } = shown;
+        const moment = sweepMoment(this.app.state.layers, shown.moment);
         const key = this.sweepKey(shown);
         const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
         const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);

@@ -3,7 +3,7 @@
 // If a grid is too large, loads its table and a halved grid that is small enough. page/streaming.ts then fetches the
 // bricks that the view needs.
 
-import { Atlas, paddedEdge } from '../atlas/atlas';
+import { Atlas, paddedEdge, rangeOfCodes } from '../atlas/atlas';
 import { brickTexelBytes } from '../atlas/brick_store';
 import { Decoder } from '../atlas/decoder';
 import { levelWithin } from '../atlas/pyramid';
@@ -48,12 +48,7 @@ function bytesOf({ grid, atlas, coverage, stream }: LoadedGrid): number {
 // Returns an empty atlas for a grid in parts.
 function poolAtlas({ grid, pyramid, shown }: GridTable, side: number): Atlas {
     const { scale, offset } = shown;
-    let [least, greatest] = [65535, 0];
-    grid.greatestCode.forEach((code, i) => {
-        if (grid.valueCount[i] === 0) return;
-        least = Math.min(least, grid.leastCode[i]!);
-        greatest = Math.max(greatest, code);
-    });
+    const [least, greatest] = rangeOfCodes(grid);
     return {
         size: [side * paddedEdge, side * paddedEdge, side * paddedEdge],
         slots: [side, side, side],

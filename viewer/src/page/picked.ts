@@ -10,7 +10,7 @@ import { Place, Plane, planeOf } from '../earth/projection';
 import { GateHit, SolidHit, levelHit, sectionHit, sweepHit } from '../scene/solid_hits';
 import { colorOf, extinctionPerM } from '../tables/color_table';
 import { ColorTable } from '../wire/color_tables';
-import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { CellState, PackedGrid, codeAt, stateOf, valueOf } from '../wire/packed_grid';
 import { App } from './app';
 import { Drawing } from './drawing';
 import { wholeBox } from './layer_tools';
@@ -55,6 +55,7 @@ function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { d
     const { geometry } = ray;
     const isShown = ({ state: status, value }: SolidHit) =>
         status === CellState.rangeFolded ||
+        status === CellState.ambiguous ||
         (status === CellState.value && value >= (state.least ?? -Infinity) && colorOf(table, value) !== null);
     const met: Met[] = [];
     const add = (layer: PickedLayer, hit: SolidHit | null) => {
@@ -91,7 +92,7 @@ function cellAt({ grid, middle }: Cells, [x, y]: Plane, heightM: number): { stat
     const level = grid.levelsM.findIndex((one) => one >= heightM);
     if (!column || level < 0) return null;
     const code = codeAt(grid, ...column, level);
-    return { state: Math.min(code, CellState.value), value: code >= firstValueCode ? valueOf(grid, code) : 0 };
+    return { state: stateOf(grid, code), value: code >= grid.firstCode ? valueOf(grid, code) : 0 };
 }
 
 // Returns the height of the greatest value of a column; null without values.
@@ -103,7 +104,7 @@ function heightOfMaximum({ grid, middle }: Cells, [x, y]: Plane): number | null 
         const one = codeAt(grid, ...column, z);
         if (one > code) [best, code] = [z, one];
     }
-    return code >= firstValueCode ? grid.levelsM[best]! : null;
+    return code >= grid.firstCode ? grid.levelsM[best]! : null;
 }
 
 type Found = Pick<Picked, 'layer' | 'at' | 'heightM' | 'state' | 'value' | 'gate'>;

@@ -36,7 +36,8 @@ function rowsOf(pen: CanvasRenderingContext2D, line: string, width: number): str
 function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): void {
     pen.font = fontOf(11);
     [...element('legend').children].forEach((row, i) => {
-        const color = row.querySelector('span')?.style.backgroundColor;
+        const shown = row.querySelector('span');
+        const color = shown?.style.backgroundColor;
         const text = row.textContent ?? '';
         const y = top + i * (swatch + 6);
         const left = right - pen.measureText(text).width;
@@ -48,7 +49,8 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
         pen.lineWidth = 1;
         const from = left - swatch - 5;
         pen.strokeRect(from, y, swatch, swatch);
-        if (!row.querySelector('.hatched')) return;
+        if (!shown.classList.contains('hatched')) return;
+        pen.strokeStyle = shown.style.color;
         pen.beginPath();
         for (const share of [0.35, 0.7, 1]) {
             pen.moveTo(from, y + share * swatch);

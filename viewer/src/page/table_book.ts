@@ -1,4 +1,5 @@
-// Keeps the color tables of the page: tables of the server, and the user's drafts.
+// Keeps the color tables of the page: tables of the server, and the user's drafts. A derived moment has the tables and
+// the draft of its measured moment.
 
 import { colorFiles } from '../facts';
 import { ViewState } from '../scene/view_state';
@@ -6,6 +7,7 @@ import { ColorTable } from '../wire/color_tables';
 import { Draft, draftOf, tableOf } from '../tables/draft';
 import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
 import { Tables } from '../wire/api';
+import { measuredOf } from '../wire/moments';
 import { texts } from './texts';
 
 // Prefix of the server's tables whose classes people with any kind of color vision can tell apart
@@ -24,7 +26,7 @@ export class TableBook {
 
     // Returns the tables of a moment, except tables of products in another unit.
     presets(moment: string): ColorTable[] {
-        const own = this.tables.tables.filter((table) => table.moment === moment);
+        const own = this.tables.tables.filter((table) => table.moment === measuredOf(moment));
         const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
         return own.filter((table) => table.unit === unit);
     }
@@ -39,7 +41,7 @@ export class TableBook {
 
     // Returns the table of a moment in a view. The same draft always gives the same object.
     of(state: ViewState, moment: string): ColorTable | undefined {
-        const draft = state.drafts.find((one) => one.moment === moment);
+        const draft = state.drafts.find((one) => one.moment === measuredOf(moment));
         if (!draft) return this.preset(moment, state.colors);
         const made = this.made.get(draft) ?? tableOf(draft, this.usual);
         this.made.set(draft, made);
@@ -47,8 +49,8 @@ export class TableBook {
     }
     // Returns the draft of a moment, or a draft made of its table.
     draftOf(state: ViewState, moment: string): Draft | undefined {
-        const draft = state.drafts.find((one) => one.moment === moment);
+        const draft = state.drafts.find((one) => one.moment === measuredOf(moment));
         const preset = this.preset(moment, state.colors);
-        return draft ?? (preset && { ...draftOf(preset, moment, this.usual), name: `my-${preset.name}` });
+        return draft ?? (preset && { ...draftOf(preset, measuredOf(moment), this.usual), name: `my-${preset.name}` });
     }
 }

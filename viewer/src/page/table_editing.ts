@@ -3,6 +3,7 @@
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
 import { writeToml } from '../tables/toml_writer';
+import { measuredOf } from '../wire/moments';
 import { App } from './app';
 
 interface Colors {
@@ -30,19 +31,21 @@ export class TableEditing {
 
     constructor(private app: App) {}
 
+    // Returns the moment whose tables the chosen moment has.
+    private get moment(): string {
+        return measuredOf(this.app.state.moment);
+    }
     // Returns the draft of the chosen moment, or a draft made of its table.
     get draft(): Draft | undefined {
         const { state, book } = this.app;
-        const draft = state.drafts.find((one) => one.moment === state.moment);
+        const draft = state.drafts.find((one) => one.moment === this.moment);
         if (draft) return draft;
-        const key = `${state.moment} ${state.colors} ${book?.isClearAir}`;
-        if (this.known.key !== key || !this.known.draft)
-            this.known = { key, draft: book?.draftOf(state, state.moment) };
+        const key = `${this.moment} ${state.colors} ${book?.isClearAir}`;
+        if (this.known.key !== key || !this.known.draft) this.known = { key, draft: book?.draftOf(state, this.moment) };
         return this.known.draft;
     }
     get isEdited(): boolean {
-        const { state } = this.app;
-        return state.drafts.some((one) => one.moment === state.moment);
+        return this.app.state.drafts.some((one) => one.moment === this.moment);
     }
     get canUndo(): boolean {
         return this.history.canUndo;
@@ -80,8 +83,7 @@ export class TableEditing {
     }
     choosePreset(name: string): void {
         this.history.note(this.now);
-        const { state } = this.app;
-        this.become({ colors: name, drafts: state.drafts.filter((one) => one.moment !== state.moment) });
+        this.become({ colors: name, drafts: this.app.state.drafts.filter((one) => one.moment !== this.moment) });
     }
     undo(): void {
         this.become(this.history.undo(this.now));

@@ -1,6 +1,7 @@
 // Has every text of the page, so that it can be translated.
 
 import { isAhead } from '../time/timeline';
+import { CellState } from '../wire/packed_grid';
 
 function span(seconds: number): string {
     const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
@@ -67,6 +68,9 @@ export const texts = {
     failed: (what: string) => `This did not work: ${what}`,
     domain: 'Domain',
     moment: 'Moment',
+    dealiased: 'Dealiased',
+    noDealiased: (moment: string) =>
+        `The server has no grids of ${moment} here. The layer "Sweep in its place" can show dealiased sweeps.`,
     time: 'Time',
     latest: 'Newest',
     live: 'Live',
@@ -139,12 +143,16 @@ export const texts = {
         'V volume, C plane with [ and ] for its height, X section, A looks at it, I surface, M column maximum, W sweep, B box.',
         'G light, N haze where no beam saw, U veil where range folded.',
         'Click a place to read the column above it.',
+        'Not seen: no beam was there. Range folded: echo from beyond the unambiguous range hides it.',
+        'Ambiguous (dealiased velocity): echo whose velocity cannot be dealiased for sure; hatched, and not in the volume.',
         'D measures a distance, R an area, F flies: W A S D, E and Q, arrows; Escape ends each.',
         'H goes home, to the map of all stations.',
     ],
     notSeen: 'not seen',
     noEcho: 'no echo',
     rangeFolded: 'range folded',
+    ambiguous: 'ambiguous',
+    ambiguousTold: 'echo whose velocity cannot be dealiased for sure',
     greatestAt: (value: string, height: string) => `Maximum ${value} at ${height} above sea level`,
     place: (latitudeDeg: number, longitudeDeg: number) =>
         `${Math.abs(latitudeDeg).toFixed(3)} ${latitudeDeg < 0 ? 'S' : 'N'}, ${Math.abs(longitudeDeg).toFixed(3)} ${longitudeDeg < 0 ? 'W' : 'E'}`,
@@ -199,6 +207,7 @@ export const texts = {
         greatest: (told: string) => `Greatest ${told}`,
         nothing: 'The section has no echo.',
         nothingButFolded: 'The section has range-folded air, but no echo.',
+        nothingButAmbiguous: 'The section has only ambiguous echo, which has no value.',
         hidden: 'echo is hidden',
         hiddenOutside: (bottom: string, top: string) => `echo outside the box from ${bottom} to ${top} is hidden`,
         hiddenFolded: 'range-folded air is hidden',
@@ -210,6 +219,8 @@ export const texts = {
         surfaceFrom: (moment: string, value: string) => `surface of ${moment} from ${value}`,
         surfaceBelow: (moment: string, value: string) => `surface of ${moment} to ${value}`,
         sweepAt: (station: string, cut: string) => `sweep of ${station}: ${cut}`,
+        dealiasedSweepAt: (station: string, cut: string) => `sweep of ${station}, dealiased: ${cut}`,
+        dealiasSweep: 'Dealiased',
         sweepComes: (station: string) => `loading the sweep of ${station}`,
         sweepFailed: (station: string) => `the sweep of ${station} could not be loaded`,
         noSweep: (station: string) => `no sweep of ${station} for this time`,
@@ -296,6 +307,20 @@ export const texts = {
                 .join(' · '),
     },
 } as const;
+
+// Returns the name of a state that has no value.
+export function stateText(state: Exclude<CellState, CellState.value>): string {
+    switch (state) {
+        case CellState.notSeen:
+            return texts.notSeen;
+        case CellState.noEcho:
+            return texts.noEcho;
+        case CellState.rangeFolded:
+            return texts.rangeFolded;
+        case CellState.ambiguous:
+            return texts.ambiguous;
+    }
+}
 
 // Texts of the editor of colors, which the page loads when it is first opened.
 export const editorTexts = {

@@ -261,6 +261,7 @@ export class LayerPasses {
         program.vec2('gateLine', 0.5 - gates.firstGateM / gates.gateSpacingM, 1 / gates.gateSpacingM);
         program.vec2('valueLine', -gates.offset / gates.scale, 1 / gates.scale);
         program.float('firstValue', gates.firstValueCode);
+        program.float('ambiguous', gates.ambiguousCode);
         this.drawMesh(cone.corners, cone.triangles);
     }
 

@@ -11,6 +11,7 @@ import field from 'shaders/field.glsl';
 import fullScreenVertex from 'shaders/full_screen.vertex.glsl';
 import grid from 'shaders/grid.glsl';
 import groundFragment from 'shaders/ground.fragment.glsl';
+import hatch from 'shaders/hatch.glsl';
 import light from 'shaders/light.glsl';
 import lineFragment from 'shaders/line.fragment.glsl';
 import lineVertex from 'shaders/line.vertex.glsl';
@@ -103,18 +104,18 @@ export const volumeProgram = (variant: VolumeVariant): ShaderProgram =>
         ],
     );
 export const groundProgram = (isPerspective: boolean): ShaderProgram =>
-    program('ground', { isPerspective }, [fullScreenVertex], [rays, groundFragment]);
+    program('ground', { isPerspective }, [fullScreenVertex], [rays, hatch, groundFragment]);
 export const lineProgram: ShaderProgram = program('lines', {}, [lineVertex], [lineFragment]);
 
 export const fieldProgram = (isPerspective: boolean): ShaderProgram =>
-    program('field', { isPerspective }, [solidVertex], [rays, looks, solid, field, fieldFragment]);
+    program('field', { isPerspective }, [solidVertex], [rays, hatch, looks, solid, field, fieldFragment]);
 export const sweepProgram = (isPerspective: boolean): ShaderProgram =>
-    program('sweep', { isPerspective }, [solidVertex], [rays, looks, solid, sweepFragment]);
+    program('sweep', { isPerspective }, [solidVertex], [rays, hatch, looks, solid, sweepFragment]);
 export const surfaceProgram = (variant: SurfaceVariant): ShaderProgram =>
     program('surface', variant, [fullScreenVertex], [rays, grid, looks, litColor, facing, surfaceFragment]);
 export const solidsShownProgram: ShaderProgram = program('solids shown', {}, [fullScreenVertex], [solidsShownFragment]);
 
 export const maximumProgram = (isPerspective: boolean): ShaderProgram =>
-    program('maximum', { isPerspective }, [fullScreenVertex], [rays, looks, field, maximumFragment]);
+    program('maximum', { isPerspective }, [fullScreenVertex], [rays, hatch, looks, field, maximumFragment]);
 export const airProgram = (variant: AirVariant): ShaderProgram =>
     program('air', variant, [fullScreenVertex], [rays, grid, airFragment]);

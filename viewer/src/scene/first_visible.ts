@@ -1,7 +1,7 @@
 // Finds the first visible cell and the most visible cell along a ray from the eye, by the exact codes of a grid.
 
 import { Ray } from '../camera/ray';
-import { CellState, PackedGrid, codeAt, firstValueCode, valueOf } from '../wire/packed_grid';
+import { CellState, PackedGrid, codeAt, valueOf } from '../wire/packed_grid';
 import { Cells } from './grid_box';
 import { Crop } from './layers';
 import { Plane, cellSizeM } from '../earth/projection';
@@ -89,7 +89,7 @@ function walk({ grid, middle }: Cells, ray: Ray, box: Crop, untilDepth: number, 
 export function firstVisible(cells: Cells, ray: Ray, box: Crop, isVisible: (value: number) => boolean): Seen | null {
     let seen: Seen | null = null;
     walk(cells, ray, box, Infinity, ({ code, at, heightM }) => {
-        if (code < firstValueCode) return false;
+        if (code < cells.grid.firstCode) return false;
         const value = valueOf(cells.grid, code);
         if (isVisible(value)) seen = { at, heightM, value };
         return seen !== null;
@@ -122,7 +122,7 @@ export function mostVisible(
     walk(cells, ray, box, untilDepth, (step) => {
         const { code, lengthM } = step;
         if (code === CellState.rangeFolded) found.foldedM += lengthM;
-        if (code < firstValueCode) return false;
+        if (code < cells.grid.firstCode) return false;
         const value = valueOf(cells.grid, code);
         if (!ofCode.has(code)) ofCode.set(code, perM(value));
         const depth = ofCode.get(code)! * lengthM;

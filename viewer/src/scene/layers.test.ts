@@ -14,6 +14,7 @@ const all: Layers = {
     surface: { value: -22.5, moment: 'VEL' },
     hasMaximum: true,
     sweepDeg: 1.45,
+    isSweepDealiased: true,
     sweepNumber: 3,
     crop: { westM: -40000, eastM: 10500, southM: -3000, northM: 60000, bottomM: 500, topM: 15000 },
     isLit: true,

@@ -1,7 +1,7 @@
 // Holds the layers of a view, and reads and writes them as parts of the address.
 
 import { Place } from '../earth/projection';
-import { momentFacts } from '../wire/moments';
+import { derivedOf, isMoment, momentFacts } from '../wire/moments';
 
 // Sides of a box. Horizontal sides are in meters from the middle of the grid, bottom and top in meters above sea level.
 export interface Crop {
@@ -26,6 +26,7 @@ export interface Layers {
     hasMaximum: boolean; // the maxima of columns are on the ground
     sweepDeg: number | null; // elevation of the sweep that is shown
     sweepNumber: number | null; // number of the sweep in its volume (see cutOf()); null: the sweep that pictures take
+    isSweepDealiased: boolean; // the sweep has dealiased velocities although the shown moment is the measured velocity
     crop: Crop | null; // box to which volume and surface are cut
     isLit: boolean;
     hasHaze: boolean; // air that no beam saw is veiled
@@ -33,7 +34,12 @@ export interface Layers {
 }
 
 // Returns true if the value is a negative velocity. Its surface encloses faster velocities toward the radar.
-export const isBelow = (moment: string, value: number): boolean => moment === 'VEL' && value < 0;
+export const isBelow = (moment: string, value: number): boolean =>
+    value < 0 && isMoment(moment) && momentFacts(moment).isSigned;
+
+// Returns the moment of the sweep while a moment is shown.
+export const sweepMoment = ({ isSweepDealiased }: Layers, moment: string): string =>
+    (isSweepDealiased ? derivedOf(moment) : null) ?? moment;
 
 // Returns true if range folded air is veiled. If the user has not chosen, a volume of velocities or spectrum widths
 // veils it, because such air is not clear. `moment` is empty while nothing is shown.
@@ -55,6 +61,7 @@ export const usualLayers: Layers = {
     hasMaximum: false,
     sweepDeg: null,
     sweepNumber: null,
+    isSweepDealiased: false,
     crop: null,
     isLit: false,
     hasHaze: false,
@@ -83,6 +90,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.hasMaximum) parts.push(['maximum', '1']);
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
+    if (layers.sweepDeg !== null && layers.isSweepDealiased) parts.push(['dealiased', '1']);
     const { crop } = layers;
     if (crop) parts.push(['crop-km', cropSides.map((side) => kilometers(crop[side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
@@ -141,6 +149,7 @@ export function layersOf(query: URLSearchParams): Layers {
         hasMaximum: query.get('maximum') === '1',
         sweepDeg: one('elevation', -5, 90),
         sweepNumber: Number.isInteger(sweep) ? sweep : null,
+        isSweepDealiased: query.get('dealiased') === '1',
         crop: cropOf(query.get('crop-km')),
         isLit: query.get('light') === 'gradient',
         hasHaze: query.get('haze') === '1',

@@ -94,6 +94,7 @@ function sweepOf(elevationDeg: number, firstGateM: number, codeOf: (radial: numb
         firstGateM,
         gateSpacingM: 250,
         firstValueCode: 2,
+        ambiguousCode: -1,
         scale: 1,
         offset: 0,
         gateStride: gateCount,

@@ -9,7 +9,7 @@ import { Section } from '../fields/section';
 import { Mixer } from '../fields/status_rule';
 import { azimuthSteps, beamAt, beamTo, noRadial } from '../fields/sweep_cone';
 import { CellState } from '../wire/packed_grid';
-import { PackedSweep } from '../wire/packed_sweep';
+import { PackedSweep, stateOfGate } from '../wire/packed_sweep';
 import { depthsWithin } from './first_visible';
 import { Extent } from './grid_box';
 import { Crop } from './layers';
@@ -176,7 +176,10 @@ function gateAt(
     if (radial === noRadial) return { ...hit, state: CellState.notSeen, value: 0, timeMs: gates.startMs };
     if (gate >= gates.gateCounts[radial]!) return null;
     const code = gates.codes[radial * gates.gateStride + gate]!;
-    const state =
-        code >= gates.firstValueCode ? CellState.value : code === 1 ? CellState.rangeFolded : CellState.noEcho;
-    return { ...hit, state, value: (code - gates.offset) / gates.scale, timeMs: gates.timesMs[radial]! };
+    return {
+        ...hit,
+        state: stateOfGate(gates, code),
+        value: (code - gates.offset) / gates.scale,
+        timeMs: gates.timesMs[radial]!,
+    };
 }

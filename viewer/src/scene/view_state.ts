@@ -8,7 +8,16 @@ import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { PackedGrid } from '../wire/packed_grid';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 import { quoted } from './shell';
-import { Layers, layersAddress, layersOf, productOf, sunAsideDeg, sunElevationDeg, usualLayers } from './layers';
+import {
+    Layers,
+    layersAddress,
+    layersOf,
+    productOf,
+    sunAsideDeg,
+    sunElevationDeg,
+    sweepMoment,
+    usualLayers,
+} from './layers';
 
 export interface ViewState {
     domain: string; // empty: the first domain
@@ -203,11 +212,13 @@ export function commandOf(
     file = '',
     volume = 1,
 ): string {
+    const product = productOf(state.layers);
+    const moment = product?.includes('ppi') ? sweepMoment(state.layers, state.moment) : state.moment;
     // Put "./" before a name that begins with a dash, because it would be read as an option.
-    const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', state.moment];
+    const words = ['stormcellar', 'frame', (file || state.domain).replace(/^-/, './-'), '--moment', moment];
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
     if (file && volume > 1) words.push('--volume', String(volume));
-    words.push(...(productOf(state.layers) ?? cameraWords(state)));
+    words.push(...(product ?? cameraWords(state)));
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);

@@ -3,9 +3,13 @@
 import { moments } from '../facts';
 
 export interface MomentFacts {
+    title: string; // as the page writes it
     unit: string; // unit of stored values; '1' for a number without a unit
     mixing: 'mean' | 'heaviest' | 'circle'; // how to combine cells between their centers (fields/status_rule.ts)
+    isSigned: boolean; // values on both sides of zero are equally strong
     isDoppler: boolean;
+    isDerived: boolean; // no radar sends the moment; cells and gates may be ambiguous
+    measured: string; // the moment from which a derived moment comes, or the moment itself
 }
 
 export const isMoment = (name: string): name is keyof typeof moments =>
@@ -16,3 +20,19 @@ export function momentFacts(name: string): MomentFacts {
     if (!isMoment(name)) throw new Error(`${name}: no such moment`);
     return moments[name];
 }
+
+// Returns true if the moment with a number in packed grids and sweeps is derived. Moments that the page does not know
+// are not.
+export const isDerivedNumber = (number: number): boolean => Object.values(moments)[number]?.isDerived ?? false;
+
+// Returns the measured moment from which a moment comes. The two share tables of colors.
+export const measuredOf = (name: string): string => (isMoment(name) ? moments[name].measured : name);
+
+// Returns the moment that is derived from a measured moment; null if there is none.
+export function derivedOf(name: string): string | null {
+    const found = Object.entries(moments).find(([, { isDerived, measured }]) => isDerived && measured === name);
+    return found ? found[0] : null;
+}
+
+// Returns the title of a moment, or the name of a moment that the page does not know.
+export const titleOf = (name: string): string => (isMoment(name) ? moments[name].title : name);

@@ -3,14 +3,20 @@
 // Units: meters and degrees; heights are above mean sea level.
 // Errors: a PackedError if the bytes are cut or are no packed grid.
 
+import { isDerivedNumber } from './moments';
+
 export class PackedError extends Error {}
 
+// The states of a cell, with the numbers of CellStatus in include/stormcellar/grid/grid.h.
 export const enum CellState {
     notSeen = 0,
     noEcho = 1,
     rangeFolded = 2,
     value = 3,
+    ambiguous = 5, // in derived moments: echo whose value cannot be derived
 }
+// Bricks store and count codes from this one on. In derived moments this code means ambiguous, and values begin at the
+// next one, `PackedGrid.firstCode`.
 export const firstValueCode = 3;
 
 export const enum BrickKind {
@@ -43,7 +49,8 @@ export interface PackedGrid extends GridPlace {
     nz: number;
     momentNumber: number;
     codeBytes: number;
-    firstValue: number;
+    firstCode: number; // the first code that means a value
+    firstValue: number; // value of code 3
     step: number;
     brickEdge: number;
     bricks: [number, number, number]; // along x, y, z
@@ -226,6 +233,7 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
         nz,
         momentNumber: u32(104),
         codeBytes: header.codeBytes,
+        firstCode: isDerivedNumber(u32(104)) ? firstValueCode + 1 : firstValueCode,
         firstValue: header.f32(112),
         step: header.f32(116),
         brickEdge: u32(120),
@@ -324,7 +332,22 @@ export function withBricks(grid: PackedGrid, bricks: PackedBricks): PackedGrid {
     return { ...grid, block, states: bricks.states, codes: bricks.codes };
 }
 
-// Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, 3 and above a value.
+// Returns the state that a code means.
+export function stateOf(grid: Pick<PackedGrid, 'firstCode'>, code: number): CellState {
+    if (code < firstValueCode) return code;
+    return code < grid.firstCode ? CellState.ambiguous : CellState.value;
+}
+
+// Returns true if a brick may hold a value. Bricks count ambiguous cells like values.
+export function mayHoldValues(grid: PackedGrid, brick: number): boolean {
+    return (
+        grid.kind[brick] === BrickKind.codes &&
+        grid.valueCount[brick]! > 0 &&
+        grid.greatestCode[brick]! >= grid.firstCode
+    );
+}
+
+// Returns the code of a cell: 0 not seen, 1 no echo, 2 range folded, 3 and above a value (see stateOf()).
 export function codeAt(grid: PackedGrid, x: number, y: number, z: number): number {
     const edge = grid.brickEdge;
     const brick =

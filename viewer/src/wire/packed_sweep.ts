@@ -3,7 +3,8 @@
 // Units: meters and degrees; heights are above mean sea level.
 // Errors: a PackedError if the bytes are cut or are no packed sweep.
 
-import { PackedError } from './packed_grid';
+import { isDerivedNumber } from './moments';
+import { CellState, PackedError } from './packed_grid';
 
 export interface PackedSweep {
     latitudeDeg: number;
@@ -14,6 +15,7 @@ export interface PackedSweep {
     firstGateM: number; // slant range to the middle of gate 0
     gateSpacingM: number;
     firstValueCode: number;
+    ambiguousCode: number; // -1 if no gate can be ambiguous
     scale: number; // value = (code - offset) / scale
     offset: number;
     gateStride: number; // number of codes for each radial
@@ -60,6 +62,7 @@ export function readPackedSweep(bytes: Uint8Array): PackedSweep {
         firstGateM: view.getInt32(80, true),
         gateSpacingM: view.getInt32(84, true),
         firstValueCode: u32(92),
+        ambiguousCode: isDerivedNumber(u32(48)) ? u32(92) - 1 : -1,
         scale: f32(96),
         offset: f32(100),
         gateStride,
@@ -79,4 +82,14 @@ export function readPackedSweep(bytes: Uint8Array): PackedSweep {
         sweep.gateCounts[i] = Math.min(gateStride, u32(at + 24));
     }
     return sweep;
+}
+
+// Returns the state that a code of a gate means.
+export function stateOfGate(
+    { firstValueCode, ambiguousCode }: Pick<PackedSweep, 'firstValueCode' | 'ambiguousCode'>,
+    code: number,
+): CellState {
+    if (code >= firstValueCode) return CellState.value;
+    if (code === ambiguousCode) return CellState.ambiguous;
+    return code === 1 ? CellState.rangeFolded : CellState.noEcho;
 }

@@ -2,6 +2,7 @@
 
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
+import { derivedOf, isMoment, measuredOf, momentFacts, titleOf } from '../../wire/moments';
 import { App } from '../app';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
@@ -16,17 +17,34 @@ function putChoices(app: App): void {
         (name) => (isRegion(name) ? texts.start.region : name),
     );
     element('moments').replaceChildren(
-        ...(domain?.moments ?? []).map(({ moment }) =>
-            button(`moment-${moment}`, moment, () => void app.choose(state.domain, moment)),
-        ),
+        ...momentsInOrder((domain?.moments ?? []).map(({ moment }) => moment)).map(({ moment, isThere }) => {
+            const isDerived = isMoment(moment) && momentFacts(moment).isDerived;
+            const choice = button(`moment-${moment}`, isDerived ? texts.dealiased : moment, () =>
+                isThere ? void app.choose(state.domain, moment) : app.say(texts.noDealiased(titleOf(moment))),
+            );
+            choice.title = isThere ? titleOf(moment) : texts.noDealiased(titleOf(moment));
+            choice.setAttribute('aria-disabled', String(!isThere));
+            return choice;
+        }),
     );
     putMoment(app);
+}
+
+// Returns the moments in the order of their buttons: a derived moment follows its measured moment, even if the server
+// has no grids of it.
+export function momentsInOrder(there: string[]): { moment: string; isThere: boolean }[] {
+    const isAlone = (moment: string) => !there.includes(measuredOf(moment));
+    return there
+        .filter((moment) => measuredOf(moment) === moment || isAlone(moment))
+        .flatMap((moment) => [moment, derivedOf(moment)])
+        .filter((moment): moment is string => moment !== null)
+        .map((moment) => ({ moment, isThere: there.includes(moment) }));
 }
 
 // Highlights the button of the drawn moment, and marks the button of a chosen moment as busy until the moment is drawn.
 function putMoment({ state, shown, domain }: App): void {
     const drawn = shown?.domain === state.domain ? shown.moment : '';
-    for (const { moment } of domain?.moments ?? []) {
+    for (const { moment } of momentsInOrder((domain?.moments ?? []).map((one) => one.moment))) {
         press(`moment-${moment}`, moment === drawn);
         element(`moment-${moment}`).setAttribute('aria-busy', String(moment === state.moment && moment !== drawn));
     }
@@ -47,7 +65,7 @@ function putTitle(app: App): void {
         .replace('T', ' ')
         .replace(/\.\d+Z/, ' UTC');
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
-    const notes = [grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
+    const notes = [titleOf(moment), grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
     // Put the age into a span of its own, which a saved picture leaves out.
     const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '');
     element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
@@ -92,13 +110,14 @@ function putSites(app: App, { sites }: FactsOfShown): void {
             ? (app.domain as Region).moments.find((one) => one.moment === shown.moment)
             : undefined;
     const without = [...(region?.sites ?? []), ...(region?.left_out ?? [])].filter((site) => !inPicture.includes(site));
+    const isSigned = isMoment(shown?.moment ?? '') && momentFacts(shown?.moment ?? '').isSigned;
     const told = [
         texts.start.sitesAt(ofSites),
         without.length > 0
             ? texts.start.leftOut(without.map((site) => [site, sites?.left_out_because[site] ?? '']))
             : '',
         region && region.halved > 0 ? texts.start.halved(region.halved) : '',
-        shown?.moment === 'VEL' && inPicture.length > 1 ? texts.start.ownVelocities : '',
+        inPicture.length > 1 && isSigned ? texts.start.ownVelocities : '',
     ];
     box.textContent = told.filter(Boolean).join('; ');
     box.hidden = box.textContent === '';

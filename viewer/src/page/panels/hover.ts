@@ -10,7 +10,7 @@ import { element, paragraph, pixelRatio } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { Picked, pick } from '../picked';
-import { texts } from '../texts';
+import { stateText, texts } from '../texts';
 
 const restsAfterMs = 120;
 const mostDigits = 6; // decimals of a stored value
@@ -93,13 +93,14 @@ export class Hover {
                       units,
                       layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits,
                   )
-                : [texts.notSeen, texts.noEcho, texts.rangeFolded][state ?? 0]!;
+                : stateText(state ?? CellState.notSeen);
         if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
         // Give no height for range folded air, because the ray may cross such air at many heights.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
         // Give the height of a column maximum only if there is a value and the cells are not halved.
         const isAtOne = layer !== 'maximum' || (picked.halvings === 0 && state === CellState.value);
         const lines = [isAtOne ? words.value(told, heightText(heightM, units)) : told];
+        if (state === CellState.ambiguous) lines.push(texts.ambiguousTold);
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];

@@ -1,7 +1,16 @@
 // Shows the panel of layers. Each layer has a checkbox and a key, and controls while it is on.
 
 import { cutsOf, isChosen } from '../../fields/sweep_choice';
-import { Crop, Layers, isBelow, sectionOf, sectionText, toggledFolded, veilsFolded } from '../../scene/layers';
+import {
+    Crop,
+    Layers,
+    isBelow,
+    sectionOf,
+    sectionText,
+    sweepMoment,
+    toggledFolded,
+    veilsFolded,
+} from '../../scene/layers';
 import { planeOf } from '../../earth/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
@@ -11,7 +20,7 @@ import { Keys } from '../keys';
 import { cutText } from '../layer_maker';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
-import { isMoment } from '../../wire/moments';
+import { derivedOf, isMoment } from '../../wire/moments';
 import { texts } from '../texts';
 import { openSettings } from './look';
 import { SectionPlot } from './section_plot';
@@ -171,7 +180,11 @@ export class LayersPanel {
     private sweepParts(): HTMLElement[] {
         const elevation = make('select', { id: 'sweep-elevation' });
         elevation.addEventListener('change', () => this.chooseCut(Number(elevation.value)));
-        return [labeled(words.elevation, elevation)];
+        const dealiased = make('input', { id: 'sweep-dealiased', type: 'checkbox' });
+        dealiased.addEventListener('change', () => this.set({ isSweepDealiased: dealiased.checked }));
+        const label = labeled(words.dealiasSweep, dealiased);
+        label.className = 'toggle';
+        return [labeled(words.elevation, elevation), label];
     }
 
     private cropParts(): HTMLElement[] {
@@ -287,7 +300,7 @@ export class LayersPanel {
         if (!row) return;
         this.set({
             sweepDeg: Number(row.elevation_deg.toFixed(2)),
-            sweepNumber: isChosen(row, this.app.state.moment) ? null : number,
+            sweepNumber: isChosen(row, sweepMoment(this.layers, this.app.state.moment)) ? null : number,
         });
     }
 
@@ -358,7 +371,11 @@ export class LayersPanel {
     private putSweep(elevationDeg: number): void {
         const { layers } = this.drawing;
         const rows = layers.sweepRows() ?? [];
-        const cuts = cutsOf(rows, this.app.shown?.moment ?? '');
+        const shown = this.app.shown?.moment ?? '';
+        const cuts = cutsOf(rows, sweepMoment(this.layers, shown));
+        const dealiased = element<HTMLInputElement>('sweep-dealiased');
+        dealiased.checked = this.layers.isSweepDealiased;
+        dealiased.closest('label')!.hidden = derivedOf(shown) === null;
         const select = element<HTMLSelectElement>('sweep-elevation');
         const textOf = (number: string) =>
             cutText(

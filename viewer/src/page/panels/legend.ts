@@ -1,7 +1,8 @@
 // Explains the shades of the ground and of layers, and how much higher the picture is than the earth.
 
-import { veilsFolded } from '../../scene/layers';
+import { sweepMoment, veilsFolded } from '../../scene/layers';
 import { shades } from '../../renderer/shades';
+import { isMoment, momentFacts } from '../../wire/moments';
 import { App } from '../app';
 import { element, make } from '../dom';
 import { texts } from '../texts';
@@ -11,7 +12,7 @@ const css = (rgb: readonly number[]): string => `rgb(${rgb.slice(0, 3).join(' ')
 interface Row {
     text: string;
     color: readonly number[] | null;
-    isHatched?: boolean;
+    lines?: readonly number[]; // the swatch is hatched in this color
 }
 
 // Returns the rows for the shades of the shown picture.
@@ -19,7 +20,7 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     const { layers, hasGround, exaggeration } = state;
     const rows: Row[] = [];
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.legend.aloft, color: shades.seenAloft });
-    if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, isHatched: true });
+    if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, lines: shades.hatch });
     if (layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.haze });
     const showsFolded =
         veilsFolded(layers, shown?.moment ?? '') ||
@@ -28,14 +29,20 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
         layers.section !== null ||
         layers.sweepDeg !== null;
     if (showsFolded && table) rows.push({ text: texts.rangeFolded, color: table.range_folded });
+    const isOfGrid = layers.hasMaximum || layers.planeM !== null || layers.section !== null;
+    const ofSweep = layers.sweepDeg === null ? '' : sweepMoment(layers, shown?.moment ?? '');
+    const moments = [isOfGrid ? (shown?.moment ?? '') : '', ofSweep];
+    if (table && moments.some((one) => isMoment(one) && momentFacts(one).isDerived))
+        rows.push({ text: texts.ambiguous, color: shades.seen, lines: table.range_folded });
     if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
     return rows;
 }
 
-function item({ text, color, isHatched }: Row): HTMLLIElement {
+function item({ text, color, lines }: Row): HTMLLIElement {
     if (!color) return make('li', {}, text);
-    const swatch = make('span', isHatched ? { class: 'hatched' } : {});
+    const swatch = make('span', lines ? { class: 'hatched' } : {});
     swatch.style.backgroundColor = css(color);
+    if (lines) swatch.style.color = css(lines);
     return make('li', {}, swatch, text);
 }
 

@@ -7,6 +7,7 @@ import { fontOf, make, pixelRatio, textScale } from '../dom';
 import { ColumnReading, LevelReading } from '../column_reading';
 import { shades } from '../../renderer/shades';
 import { texts } from '../texts';
+import { CellState } from '../../wire/packed_grid';
 
 const [width, height] = [250, 130]; // pixels at the usual size of texts
 const [left, bottom] = [52, 20];
@@ -27,15 +28,19 @@ export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement
     const x = (value: number) => left + ((value - from) / (to - from)) * (width - left - 8);
     const y = (heightM: number) =>
         height - bottom - ((heightM - lowM) / Math.max(1, highM - lowM)) * (height - bottom - 8);
-    // Draw a level gray if no beam saw it, in the color of range folded air if it is range folded, and dark otherwise.
-    // A value is a bar in its color.
+    // Draw a level gray if no beam saw it, in the color of range folded air if it is range folded, half as dense if it
+    // is ambiguous, and dark otherwise. A value is a bar in its color.
+    const shadeOf: Partial<Record<CellState, string>> = {
+        [CellState.notSeen]: 'rgba(78, 82, 92, 0.55)',
+        [CellState.rangeFolded]: 'rgba(124, 74, 140, 0.6)',
+        [CellState.ambiguous]: 'rgba(124, 74, 140, 0.3)',
+    };
     for (let i = 0; i < levels.length; ++i) {
-        const { heightM, code, value } = levels[i]!;
+        const { heightM, state, value } = levels[i]!;
         const middle = (other: LevelReading | undefined) => y(((other?.heightM ?? heightM) + heightM) / 2);
         const above = middle(levels[i + 1]);
         const tall = middle(levels[i - 1]) - above;
-        pen.fillStyle =
-            code === 0 ? 'rgba(78, 82, 92, 0.55)' : code === 2 ? 'rgba(124, 74, 140, 0.6)' : 'rgba(40, 44, 50, 0.9)';
+        pen.fillStyle = shadeOf[state] ?? 'rgba(40, 44, 50, 0.9)';
         pen.fillRect(left, above, width - left - 8, tall);
         const color = value === null ? null : colorOf(table, value);
         if (value === null || !color) continue;

@@ -14,7 +14,7 @@ import { pagePixel } from '../labels';
 import { Picked, pick } from '../picked';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../column_reading';
-import { texts } from '../texts';
+import { stateText, texts } from '../texts';
 import { Hover } from './hover';
 import { profilePlot } from './profile_plot';
 
@@ -23,7 +23,9 @@ const markColor = '#ffffff';
 const mostDigits = 6; // decimals of a value, which are enough for any code
 
 function summaryOf({ levels, greatest, seenM }: ColumnReading, unit: string, units: Units): string {
-    if (!greatest && levels.some((level) => level.code === CellState.rangeFolded)) return texts.rangeFolded;
+    const unknown = [CellState.ambiguous, CellState.rangeFolded] as const;
+    const why = unknown.find((state) => levels.some((level) => level.state === state));
+    if (!greatest && why !== undefined) return stateText(why);
     if (greatest)
         return texts.greatestAt(
             valueText(greatest.value, unit, units, mostDigits),
@@ -44,13 +46,15 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
         );
     }
     const table = make('table');
-    const told = reading.levels.filter((level) => level.value !== null || level.code === 2);
+    const told = reading.levels.filter(({ state }) => state !== CellState.notSeen && state !== CellState.noEcho);
     const every = Math.ceil(told.length / mostRows);
     for (const level of told.filter((_, i) => i % every === 0).reverse()) {
         const row = table.insertRow();
         row.insertCell().textContent = heightText(level.heightM, units);
         row.insertCell().textContent =
-            level.value === null ? texts.rangeFolded : valueText(level.value, unit, units, mostDigits);
+            level.state === CellState.value
+                ? valueText(level.value ?? 0, unit, units, mostDigits)
+                : stateText(level.state);
     }
     body.append(table);
 }

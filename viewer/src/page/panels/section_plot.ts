@@ -8,7 +8,7 @@ import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { fontOf, make, pixelRatio, textScale } from '../dom';
-import { texts } from '../texts';
+import { stateText, texts } from '../texts';
 import { Windows } from '../windows';
 
 const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pixels of the page
@@ -18,6 +18,7 @@ const hatchPeriod = 9;
 // Returns the reason why a section has no value.
 function nothingIn({ field, inGrid }: Section): string {
     if (!inGrid.includes(1)) return texts.layers.beyond;
+    if (field.states.includes(CellState.ambiguous)) return texts.layers.nothingButAmbiguous;
     if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;
     return field.states.includes(CellState.noEcho) ? texts.layers.nothing : texts.notSeen;
 }
@@ -43,6 +44,7 @@ export function sectionPixels(section: Section, table: ColorTable, least: number
             else if (state === CellState.value)
                 color = lookOver(looks, field.values[from]!, shades.seen) ?? shades.seen;
             else if (state === CellState.rangeFolded) color = table.range_folded;
+            else if (state === CellState.ambiguous) color = isHatched ? table.range_folded : shades.seen;
             else if (state === CellState.notSeen) color = isHatched ? shades.hatch : shades.notSeen;
             pixels.set([color[0]!, color[1]!, color[2]!, 255], 4 * (y * width + x));
         }
@@ -205,13 +207,9 @@ export class SectionPlot {
         const at = row * field.width + column;
         const distanceM = ((column + 0.5) / field.width) * lengthM;
         const heightM = bottomM + ((row + 0.5) / field.height) * (topM - bottomM);
-        const names = [texts.notSeen, texts.noEcho, texts.rangeFolded];
-        const isValue = inGrid[column] === 1 && field.states[at] === CellState.value;
-        const what = isValue
-            ? ofValue(field.values[at]!)
-            : inGrid[column] === 0
-              ? texts.layers.beyond
-              : names[field.states[at]!]!;
+        const state = field.states[at] as CellState;
+        const inside = () => (state === CellState.value ? ofValue(field.values[at]!) : stateText(state));
+        const what = inGrid[column] === 0 ? texts.layers.beyond : inside();
         this.reading.textContent = told(what, distanceM, heightM);
     }
 }

@@ -7,6 +7,6 @@ void main() {
         return;
     }
     vec2 found = fieldAt(at);
-    if (found.y > 3.5) discard;
+    if (found.y == 4.0) discard;
     put(solidColor(int(found.y + 0.5), found.x));
 }

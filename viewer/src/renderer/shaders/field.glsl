@@ -1,4 +1,5 @@
-// Reads a field of values and states (fields/flat_field.ts). State 4 is a place beyond the grid.
+// Reads a field of values and states (fields/flat_field.ts). State 4 is a place beyond the grid, and state 5 is
+// ambiguous.
 uniform sampler2D field; // value, state
 uniform bool mixes;
 
@@ -7,11 +8,11 @@ vec2 fieldAt(vec2 place) {
     // Take the nearest texel if values do not mix, or if the place is beyond the grid.
     ivec2 most = textureSize(field, 0) - 1;
     vec2 nearest = texelFetch(field, clamp(ivec2(floor(place)), ivec2(0), most), 0).rg;
-    if (!mixes || nearest.y > 3.5) return nearest;
+    if (!mixes || nearest.y == 4.0) return nearest;
     // Add up the weights of each state among the four texels about the place, and the weighted values.
     vec2 low = floor(place - 0.5), share = place - 0.5 - low;
     vec4 weights = vec4(0.0);
-    float sum = 0.0;
+    float sum = 0.0, ambiguous = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1);
         vec2 one = texelFetch(field, clamp(ivec2(low) + side, ivec2(0), most), 0).rg;
@@ -20,10 +21,12 @@ vec2 fieldAt(vec2 place) {
         else if (one.y < 1.5) weights.y += weight;
         else if (one.y < 2.5) weights.z += weight;
         else if (one.y < 3.5) { weights.w += weight; sum += weight * one.x; }
+        else if (one.y > 4.5) ambiguous += weight;
     }
     // Choose the state by the status rule (fields/status_rule.ts). A value is the mean of the texels with values.
-    if (weights.x > weights.y + weights.z + weights.w) return vec2(0.0, 0.0);
-    if (weights.z > weights.w && weights.z > weights.y) return vec2(0.0, 2.0);
+    float unknown = weights.z + ambiguous;
+    if (weights.x > weights.y + unknown + weights.w) return vec2(0.0, 0.0);
+    if (unknown > weights.w && unknown > weights.y) return vec2(0.0, weights.z >= ambiguous ? 2.0 : 5.0);
     if (weights.w < weights.y || weights.w == 0.0) return vec2(0.0, 1.0);
     return vec2(sum / weights.w, 3.0);
 }

@@ -18,15 +18,6 @@ float waterAt(vec2 at) {
     return clamp(0.5 + share / max(fwidth(share), 1e-3), 0.0, 1.0);
 }
 
-// Draws lines of one pixel from the lower left to the upper right over a shade.
-vec3 hatched(vec3 shade) {
-    vec2 p = floor(pixel());
-    float period = 9.0 * hatchScale;
-    float phase = mod(p.x + p.y, period);
-    float distance = min(phase, period - phase) / 1.41421356;
-    return mix(shade, hatch, clamp(0.5 * hatchScale + 0.5 - distance, 0.0, 1.0));
-}
-
 void main() {
     // Show the color of the page where the ray does not meet the ground.
     vec3 start = rayStart(), along = rayStep();
@@ -48,5 +39,5 @@ void main() {
     // Take the shade of the column's state.
     uint state = texelFetch(coverage, ivec2(place * columns / columnsATexel), 0).r;
     vec3 shade = mix(landShades[state], waterShades[state], isWater);
-    color = vec4(state == 0u ? hatched(shade) : shade, 1.0);
+    color = vec4(state == 0u ? mix(shade, hatch, hatchAt(hatchScale)) : shade, 1.0);
 }

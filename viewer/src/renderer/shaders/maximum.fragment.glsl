@@ -13,10 +13,12 @@ void main() {
     vec2 place = (on - extent.xy) / (extent.zw - extent.xy);
     if (any(greaterThanEqual(abs(on), halfSize))) discard;
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(1.0)))) discard;
-    // Cover the ground where there is a value or range folded air. Elsewhere the ground stays visible.
+    // Cover the ground where there is a value or range folded air, and hatch it where echo is ambiguous. Elsewhere the
+    // ground stays visible.
     vec2 found = fieldAt(place * vec2(textureSize(field, 0)));
     int state = int(found.y + 0.5);
     if (state == 2) color = vec4(foldedColor, 1.0);
+    else if (state == 5) color = vec4(foldedColor, 1.0) * hatchAt(1.0);
     else if (state == 3) {
         vec4 look = lookOf(found.x);
         if (look.a == 0.0) discard;

@@ -14,6 +14,12 @@ vec3 solidColor(int state, float value) {
         if (mod(p.x + p.y, 9.0) >= 1.5) discard;
         return hatchColor;
     }
+    // Hatch ambiguous echo in the color of range folded air.
+    if (state == 5) {
+        float share = hatchAt(1.0);
+        if (share == 0.0) discard;
+        return mix(seenColor, foldedColor, share);
+    }
     if (state != 3) discard;
     // Blend the color of the value over the color of seen air, because a solid layer is opaque.
     vec4 look = lookOf(value);

@@ -4,7 +4,7 @@ uniform usampler2D codes; // gates along x, radials along y
 uniform usampler2D radials; // number of the radial and its number of gates, by azimuth
 uniform vec2 gateLine; // gate = x + y * slant range
 uniform vec2 valueLine; // value = x + y * code
-uniform float firstValue;
+uniform float firstValue, ambiguous; // codes; `ambiguous` is less than 0 if no gate can be ambiguous
 void main() {
     // Look up the nearest radial by azimuth. The azimuths fill rows of the texture.
     int step_ = int(clamp(at.x * float(AZIMUTH_STEPS / 360), 0.0, float(AZIMUTH_STEPS - 1)));
@@ -16,7 +16,8 @@ void main() {
         putAnywhere(solidColor(0, 0.0));
         return;
     }
-    // Draw the gate by its code: 1 is range folded, and values begin at firstValue.
+    // Draw the gate by its code: 1 is range folded, and values begin at firstValue (wire/packed_sweep.ts).
     float code = float(texelFetch(codes, ivec2(gate, int(radial.x)), 0).r);
-    putAnywhere(solidColor(code >= firstValue ? 3 : code == 1.0 ? 2 : 1, valueLine.x + valueLine.y * code));
+    int state = code >= firstValue ? 3 : code == ambiguous ? 5 : code == 1.0 ? 2 : 1;
+    putAnywhere(solidColor(state, valueLine.x + valueLine.y * code));
 }
