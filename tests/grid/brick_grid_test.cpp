@@ -83,6 +83,19 @@ TEST(BrickGrid, AmbiguousCellsHaveTheCodeBelowAllValues) {
     }
 }
 
+// 2026-11-29: ambiguous cells became code 4, which is the least value, -1023.75 m/s.
+TEST(BrickGrid, GivesBackAmbiguousCells) {
+    Grid grid = mixed_grid(-60, 60);
+    grid.moment = level2::Moment::veld;
+    for (std::size_t cell = 0; cell < grid.status.size(); cell += 3) {
+        grid.status[cell] = CellStatus::ambiguous;
+        grid.values[cell] = 0;
+    }
+    expect_same_within_half_a_step(grid, default_quantization(grid.moment));
+    const Grid alone = grid_of(20, 20, 20, CellStatus::ambiguous);
+    expect_same_within_half_a_step(alone, default_quantization(grid.moment));
+}
+
 TEST(BrickGrid, HoldsEveryKindOfBrick) {
     const BrickGrid bricks = BrickGrid::from(mixed_grid(0, 60), {1, -32, 0.5F});
     std::set<BrickKind> kinds;
