@@ -20,6 +20,7 @@ function inFolder(folder, station) {
 
 const squallLine = volume('KLBB20160601_150025_V06');
 const supercells = volume('KTLX19990503_235621.gz');
+const hurricane = volume('KCRP20170826_044114.trimmed.ar2v');
 const clearAir = volume('KLOT20220317_000842_V06');
 // Volumes of storms. If none is on this machine, the checks use a simulated volume.
 const storms = existsSync(squallLine) ? [squallLine, supercells] : existsSync(clearAir) ? [clearAir] : [];
@@ -73,6 +74,7 @@ export default defineConfig({
       use: { volumes: storms },
     },
     { name: 'clear-air', testMatch: 'clear_air.spec.mjs', use: { volumes: [clearAir] } },
+    { name: 'dealiased', testMatch: 'dealiased.spec.mjs', use: { volumes: [hurricane] } },
     { name: 'newcomer', testMatch: 'newcomer.spec.mjs', use: { volumes: [supercells] } },
     { name: 'sequence', testMatch: /(time|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
     { name: 'region', testMatch: /(region|water)\.spec\.mjs/, use: { volumes: neighbors } },

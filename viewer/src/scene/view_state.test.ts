@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 
-import { beyondCommand, usualLayers } from './layers';
+import { Layers, beyondCommand, usualLayers } from './layers';
 import { isPrintable } from './shell';
 import { isRegion, regionName } from '../wire/region';
 import { addressOf, commandOf, isBeyondLimits, isUsualGrid, stateOf, usualState } from './view_state';
@@ -102,6 +102,20 @@ test('a region has exactly four numbers (2026-11-28: text after them went into c
         'region:1e9,2,3,4',
     ])
         assert.equal(isRegion(name), false, name);
+});
+
+test('the command names the moment that the picture shows', () => {
+    const momentIn = (moment: string, layers: Partial<Layers>) => {
+        const state = { ...usualState, domain: 'KCRP', moment, layers: { ...usualLayers, ...layers } };
+        return /--moment (\w+)/.exec(commandOf(state, 800, 600, ''))?.[1];
+    };
+    const sweep = { hasVolume: false, sweepDeg: 0.5 };
+    assert.equal(momentIn('VELD', {}), 'VELD');
+    assert.equal(momentIn('VELD', sweep), 'VELD');
+    assert.equal(momentIn('VEL', { ...sweep, isSweepDealiased: true }), 'VELD');
+    assert.equal(momentIn('VEL', sweep), 'VEL');
+    assert.equal(momentIn('VEL', { isSweepDealiased: true }), 'VEL', 'the volume is not dealiased');
+    assert.equal(momentIn('REF', { ...sweep, isSweepDealiased: true }), 'REF');
 });
 
 test('the command draws one layer, and is not offered for others', () => {

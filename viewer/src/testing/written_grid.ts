@@ -6,6 +6,7 @@ export interface Made {
     nx: number;
     ny: number;
     levelsM: number[];
+    moment?: number; // number of the moment
     codeBytes?: 1 | 2;
     firstValue?: number;
     step?: number;
@@ -81,6 +82,7 @@ export function packedGrid(made: Made): Uint8Array {
     f64(64, made.spacing ?? 1000);
     (made.offsetCells ?? [0, 0]).forEach((cells, i) => f64(88 + 8 * i, cells));
     u32(164, made.halvings ?? 0);
+    u32(104, made.moment ?? 0);
     u32(108, codeBytes);
     view.setFloat32(112, made.firstValue ?? -32, true);
     view.setFloat32(116, made.step ?? 0.5, true);

@@ -36,3 +36,14 @@ export function derivedOf(name: string): string | null {
 
 // Returns the title of a moment, or the name of a moment that the page does not know.
 export const titleOf = (name: string): string => (isMoment(name) ? moments[name].title : name);
+
+// Returns the moments in the order of their buttons: a derived moment follows its measured moment, even if the server
+// has no grids of it.
+export function momentsInOrder(there: string[]): { moment: string; isThere: boolean }[] {
+    const isAlone = (moment: string) => !there.includes(measuredOf(moment));
+    return there
+        .filter((moment) => measuredOf(moment) === moment || isAlone(moment))
+        .flatMap((moment) => [moment, derivedOf(moment)])
+        .filter((moment): moment is string => moment !== null)
+        .map((moment) => ({ moment, isThere: there.includes(moment) }));
+}

@@ -2,7 +2,7 @@
 
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
-import { derivedOf, isMoment, measuredOf, momentFacts, titleOf } from '../../wire/moments';
+import { isMoment, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
 import { App } from '../app';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
@@ -28,17 +28,6 @@ function putChoices(app: App): void {
         }),
     );
     putMoment(app);
-}
-
-// Returns the moments in the order of their buttons: a derived moment follows its measured moment, even if the server
-// has no grids of it.
-export function momentsInOrder(there: string[]): { moment: string; isThere: boolean }[] {
-    const isAlone = (moment: string) => !there.includes(measuredOf(moment));
-    return there
-        .filter((moment) => measuredOf(moment) === moment || isAlone(moment))
-        .flatMap((moment) => [moment, derivedOf(moment)])
-        .filter((moment): moment is string => moment !== null)
-        .map((moment) => ({ moment, isThere: there.includes(moment) }));
 }
 
 // Highlights the button of the drawn moment, and marks the button of a chosen moment as busy until the moment is drawn.
