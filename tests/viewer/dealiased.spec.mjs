@@ -142,6 +142,7 @@ test.describe('a server without grids of VELD', () => {
     const before = await read(viewer);
     await viewer.settled(() => viewer.press('sweep-dealiased'));
     await expect(viewer.byId('layers-told')).toContainText('dealiased');
+    await expect(viewer.byId('title')).toContainText('Dealiased velocity');
     await expect(viewer.byId('legend')).toContainText('ambiguous');
     const after = await read(viewer);
     expect(speedIn(before)).toBeLessThan(0);

@@ -61,8 +61,7 @@ function drawLegend(pen: CanvasRenderingContext2D, right: number, top: number): 
 }
 
 // Draws the picture as large as the page shows it. A coarser picture is enlarged below the labels, as on the page.
-// `moment` is added to the texts, because the title does not name it.
-export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement, moment: string): HTMLCanvasElement {
+export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement): HTMLCanvasElement {
     const all = make('canvas');
     all.width = labels.width;
     all.height = labels.height;
@@ -85,7 +84,7 @@ export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement
             y += lineHeight;
         }
     };
-    put(`${first ?? ''}  ${moment}`);
+    put(first ?? '');
     pen.font = fontOf(12);
     more.forEach(put);
     drawLegend(pen, all.width / scale - 12, (place.bottom * ratio) / scale + 8);

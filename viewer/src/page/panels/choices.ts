@@ -3,6 +3,7 @@
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
 import { isMoment, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
+import { echoLayers, sweepMoment } from '../../scene/layers';
 import { App } from '../app';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
@@ -46,7 +47,11 @@ const againAfterMs = 20_000; // between updates of ages
 function putTitle(app: App): void {
     const { shown } = app;
     if (!shown || app.isOnMap) return;
-    const { domain, moment } = shown;
+    const { domain } = shown;
+    const { layers } = app.state;
+    // A sweep alone may be of another moment than the grid.
+    const isSweepAlone = layers.sweepDeg !== null && echoLayers(layers) === 1;
+    const moment = isSweepAlone ? sweepMoment(layers, shown.moment) : shown.moment;
     const { grid } = shown.loaded;
     const names = grid.sites.map((site) => site.icao).join(', ');
     const time = new Date(grid.timeMs)
@@ -128,8 +133,8 @@ export function addChoices(app: App, facts: FactsOfShown): void {
         putTitle(app);
         putNotice(app);
     }, againAfterMs);
+    app.on(['shown', 'view'], () => putTitle(app));
     app.on('shown', () => {
-        putTitle(app);
         putMoment(app);
         putSites(app, facts);
         askSites();

@@ -31,7 +31,7 @@ function save(app: App, drawing: Drawing): void {
             if (!app.shown) return;
             const { domain, moment, time } = app.shown;
             const download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
-            const href = snapshotOf(drawing.picture, drawing.labels, moment).toDataURL('image/png');
+            const href = snapshotOf(drawing.picture, drawing.labels).toDataURL('image/png');
             make('a', { download, href }).click();
         },
         () => app.say(texts.notSaved),
