@@ -42,16 +42,17 @@ std::string_view mixing_of(level2::Circle circle) {
 
 std::string moments() {
     std::string text = "export const moments = {\n";
+    std::string titles = "export const momentTitles = {\n";
     for (const level2::MomentFacts& facts : level2::moment_facts) {
         text += fmt::format(
-            "    {}: {{\n        title: '{}',\n        unit: '{}',\n"
-            "        mixing: '{}',\n        isSigned: {},\n        isDoppler: {},\n"
-            "        isDerived: {},\n        measured: '{}',\n    }},\n",
-            facts.name, render::look_of(facts.moment).title, facts.units, mixing_of(facts.circle),
-            facts.is_signed, facts.is_doppler, facts.is_derived,
-            level2::moment_name(level2::measured_moment(facts.moment)));
+            "    {}: {{\n        unit: '{}',\n        mixing: '{}',\n"
+            "        isSigned: {},\n        isDoppler: {},\n        isDerived: {},\n"
+            "        measured: '{}',\n    }},\n",
+            facts.name, facts.units, mixing_of(facts.circle), facts.is_signed, facts.is_doppler,
+            facts.is_derived, level2::moment_name(level2::measured_moment(facts.moment)));
+        titles += fmt::format("    {}: '{}',\n", facts.name, render::look_of(facts.moment).title);
     }
-    return text + "} as const;\n";
+    return text + "} as const;\n" + titles + "} as const;\n";
 }
 
 std::string units_of(std::string_view quantity, bool render::UnitFacts::*is_of) {

@@ -5,7 +5,6 @@
 // without one), and how cells are mixed between their centers.
 export const moments = {
     REF: {
-        title: 'Reflectivity',
         unit: 'dBZ',
         mixing: 'mean',
         isSigned: false,
@@ -14,7 +13,6 @@ export const moments = {
         measured: 'REF',
     },
     VEL: {
-        title: 'Radial velocity',
         unit: 'm/s',
         mixing: 'heaviest',
         isSigned: true,
@@ -23,7 +21,6 @@ export const moments = {
         measured: 'VEL',
     },
     SW: {
-        title: 'Spectrum width',
         unit: 'm/s',
         mixing: 'mean',
         isSigned: false,
@@ -32,7 +29,6 @@ export const moments = {
         measured: 'SW',
     },
     ZDR: {
-        title: 'Differential reflectivity',
         unit: 'dB',
         mixing: 'mean',
         isSigned: false,
@@ -41,7 +37,6 @@ export const moments = {
         measured: 'ZDR',
     },
     PHI: {
-        title: 'Differential phase',
         unit: 'degree',
         mixing: 'circle',
         isSigned: false,
@@ -50,7 +45,6 @@ export const moments = {
         measured: 'PHI',
     },
     RHO: {
-        title: 'Correlation coefficient',
         unit: '1',
         mixing: 'mean',
         isSigned: false,
@@ -59,7 +53,6 @@ export const moments = {
         measured: 'RHO',
     },
     CFP: {
-        title: 'Clutter filter power removed',
         unit: 'dB',
         mixing: 'mean',
         isSigned: false,
@@ -68,7 +61,6 @@ export const moments = {
         measured: 'CFP',
     },
     VELD: {
-        title: 'Dealiased velocity',
         unit: 'm/s',
         mixing: 'mean',
         isSigned: true,
@@ -76,6 +68,16 @@ export const moments = {
         isDerived: true,
         measured: 'VEL',
     },
+} as const;
+export const momentTitles = {
+    REF: 'Reflectivity',
+    VEL: 'Radial velocity',
+    SW: 'Spectrum width',
+    ZDR: 'Differential reflectivity',
+    PHI: 'Differential phase',
+    RHO: 'Correlation coefficient',
+    CFP: 'Clutter filter power removed',
+    VELD: 'Dealiased velocity',
 } as const;
 
 // Units by quantity, the usual one first.

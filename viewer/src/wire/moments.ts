@@ -1,9 +1,8 @@
 // Finds facts of moments by their names in answers of the server.
 
-import { moments } from '../facts';
+import { momentTitles, moments } from '../facts';
 
 export interface MomentFacts {
-    title: string; // as the page writes it
     unit: string; // unit of stored values; '1' for a number without a unit
     mixing: 'mean' | 'heaviest' | 'circle'; // how to combine cells between their centers (fields/status_rule.ts)
     isSigned: boolean; // values on both sides of zero are equally strong
@@ -35,7 +34,7 @@ export function derivedOf(name: string): string | null {
 }
 
 // Returns the title of a moment, or the name of a moment that the page does not know.
-export const titleOf = (name: string): string => (isMoment(name) ? moments[name].title : name);
+export const titleOf = (name: string): string => (isMoment(name) ? momentTitles[name] : name);
 
 // Returns the moments in the order of their buttons: a derived moment follows its measured moment, even if the server
 // has no grids of it.
