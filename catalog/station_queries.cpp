@@ -171,8 +171,8 @@ std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view pr
                                                              std::size_t most) {
     static const std::string text = std::string{columns_without_volume} +
                                     "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
-    // All wanted paths are less than this: UTF-8 never contains the byte 0xFF, and a name with this
-    // byte right behind the prefix is not a chunk's.
+    // All paths that callers look for are less than this, because byte 0xFF never follows their
+    // prefix: the number of a chunk follows it, or the name of an archive's member in UTF-8.
     const std::string behind = std::string{prefix} + '\xFF';
     LentStatement rows = prepared(text.c_str());
     rows->bind(1, prefix.data(), static_cast<int>(prefix.size()));

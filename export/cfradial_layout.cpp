@@ -48,7 +48,8 @@ std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
     return floor + 1;
 }
 
-// A radial to 460 km has 1840 gates of 250 m. More elements than this mean a damaged file.
+// An axis with more elements than this means a damaged file. A radial to 460 km has 1840 gates of
+// 250 m.
 constexpr std::int64_t most_elements = 8192;
 constexpr std::int32_t most_repeats = 8;
 

@@ -73,7 +73,8 @@ void PartialsKeeper::run() {
     while (!stopping_) {
         try {
             turn();
-        } catch (const std::exception& error) {  // memory is short; a scan finds the rest
+        } catch (const std::exception& error) {
+            // Usually memory is short. The next scan finds the partials that were not taken.
             log_error({Event::partial_refused},
                       "cannot take partials of other machines: {}; the service tries again",
                       error.what());
@@ -156,7 +157,8 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
-// Checks a frame that may lack a partial. Returns true if there was such a frame.
+// Makes one frame again if it lacks a partial. Returns true if it looked at a frame without
+// failing.
 bool PartialsKeeper::mend_one() {
     if (stopping_ || steady_now() < next_mending_) return false;
     pulse_.beat();

@@ -18,8 +18,8 @@ namespace stormcellar::level2 {
 namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{256} << 10;
-// A compressed record of this size holds whole sweeps; a record of a live volume is much smaller.
 constexpr std::size_t rows_of_a_sweep = 720;
+// A compressed record above this size holds whole sweeps; a record of a live volume is much smaller.
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
 
 void add_record_problem(FragmentBuilder& builder, Severity severity, std::string_view code,
@@ -31,7 +31,7 @@ void add_record_damage(FragmentBuilder& builder, std::string_view code, const st
                        std::uint64_t offset, std::uint64_t dropped) {
     DecodeReport& report = builder.report_data();
     report.bytes_dropped += dropped;
-    if (!report.corruption) report.corruption = {offset, "a LDM record is damaged: " + reason};
+    if (!report.corruption) report.corruption = {offset, "an LDM record is damaged: " + reason};
     add_record_problem(builder, Severity::error, code,
                        fmt::format("{}; {} bytes dropped", reason, dropped), offset);
 }

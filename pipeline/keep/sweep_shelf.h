@@ -1,8 +1,9 @@
 // pipeline/keep/sweep_shelf.h -- stores sweeps on disk until they are needed again.
 //
-// The sweeps are packed with LZ4 in a file without a name, which disappears when the process ends,
-// even by a crash. 160 growing volumes hold more than a service should keep in memory, and the
-// kernel can drop the file's pages from memory when it is short. A sweep comes back bit for bit.
+// A shelf packs sweeps with LZ4 into a file without a name. The file disappears when the process
+// ends, even if the process crashes. The sweeps of 160 growing volumes take more memory than a
+// service should hold; when memory is short, the kernel can drop the file's pages from memory. A
+// sweep comes back bit for bit.
 //
 // Threads   put() by one thread at a time; get() by many, also during put().
 #pragma once

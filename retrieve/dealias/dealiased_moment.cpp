@@ -1,4 +1,5 @@
-// The moment VELD, the need test, and the names of the rungs.
+// Makes the moment VELD, tests whether a volume needs dealiasing, and names the rungs (the ways to
+// dealias).
 #include <algorithm>
 #include <array>
 #include <cmath>
