@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t piece_bytes = std::size_t{256} << 10;
 constexpr std::size_t rows_of_a_sweep = 720;
-// A compressed record above this size holds whole sweeps; a record of a live volume is much smaller.
+// A compressed record larger than this holds whole sweeps. Records of live volumes are smaller.
 constexpr std::size_t large_record_bytes = std::size_t{512} << 10;
 
 void add_record_problem(FragmentBuilder& builder, Severity severity, std::string_view code,
