@@ -171,8 +171,9 @@ std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view pr
                                                              std::size_t most) {
     static const std::string text = std::string{columns_without_volume} +
                                     "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
-    // All paths that callers look for are less than this, because byte 0xFF never follows their
-    // prefix: the number of a chunk follows it, or the name of an archive's member in UTF-8.
+    // All paths that callers look for are less than this: a digit follows the prefix of a chunk,
+    // and the name of an archive's member in UTF-8 has no byte 0xFF. Only a member whose name
+    // begins with this byte, and so is not UTF-8, is not found.
     const std::string behind = std::string{prefix} + '\xFF';
     LentStatement rows = prepared(text.c_str());
     rows->bind(1, prefix.data(), static_cast<int>(prefix.size()));
