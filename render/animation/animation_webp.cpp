@@ -1,6 +1,6 @@
 // Writes WebP loops with libwebp's animation encoder. The loops are lossless, because colors are
 // data and lossy WebP would halve their resolution. Method 1 and effort 50 give most of the
-// compression for little time (docs/decisions.md).
+// compression for little time.
 #include <climits>
 #include <cmath>
 
