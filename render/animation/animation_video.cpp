@@ -23,8 +23,8 @@ struct Codec {
     std::array<std::pair<const char*, const char*>, 6> settings;  // unused entries are null
 };
 
-// The codecs in order of preference. The rates are high, because lossy video halves the resolution of
-// colors.
+// The codecs in order of preference. The rates are high, because lossy video halves the resolution
+// of colors.
 constexpr std::array codecs{
     Codec{VideoContainer::mp4,
           "libx264",

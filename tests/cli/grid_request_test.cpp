@@ -122,15 +122,6 @@ TEST(GridRequest, WhatTheSiteMakesImpossibleIsBadUsage) {
     EXPECT_FALSE(spec_for("--projection lat-lon", 90, 0));
 }
 
-Result<GridRequest> request_for(const std::string& arguments, bool takes_moments = true) {
-    GridOptions options;
-    options.takes_moments = takes_moments;
-    CLI::App app;
-    add_grid_options(app, options);
-    app.parse("file -o out.nc " + arguments);
-    return parse_request(options);
-}
-
 TEST(GridRequest, DealiasTurnsVelIntoVeld) {
     using level2::Moment;
     using retrieve::Dealiasing;
@@ -139,7 +130,7 @@ TEST(GridRequest, DealiasTurnsVelIntoVeld) {
         const auto request = request_for(arguments);
         ASSERT_TRUE(request) << arguments << ": " << request.error().message;
         EXPECT_EQ(request->moments(), moments) << arguments;
-        EXPECT_EQ(request->dealiasing, rung) << arguments;
+        EXPECT_EQ(request->derived.dealiasing, rung) << arguments;
     };
     expect("--moment VEL", {Moment::vel}, Dealiasing::automatic);
     expect("--moment VELD", {Moment::veld}, Dealiasing::automatic);

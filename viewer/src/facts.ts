@@ -68,6 +68,14 @@ export const moments = {
         isDerived: true,
         measured: 'VEL',
     },
+    SRV: {
+        unit: 'm/s',
+        mixing: 'mean',
+        isSigned: true,
+        isDoppler: true,
+        isDerived: true,
+        measured: 'VEL',
+    },
 } as const;
 export const momentTitles = {
     REF: 'Reflectivity',
@@ -78,6 +86,7 @@ export const momentTitles = {
     RHO: 'Correlation coefficient',
     CFP: 'Clutter filter power removed',
     VELD: 'Dealiased velocity',
+    SRV: 'Storm-relative velocity',
 } as const;
 
 // Units by quantity, the usual one first.
