@@ -134,8 +134,9 @@ TEST(GridRequest, DealiasTurnsVelIntoVeld) {
     };
     expect("--moment VEL", {Moment::vel}, Dealiasing::automatic);
     expect("--moment VELD", {Moment::veld}, Dealiasing::automatic);
-    expect("--moment VEL --dealias off", {Moment::vel}, Dealiasing::off);
-    expect("--moment REF --dealias off", {Moment::ref}, Dealiasing::off);
+    // Nothing is dealiased, so the rung keeps its default.
+    expect("--moment VEL --dealias off", {Moment::vel}, Dealiasing::automatic);
+    expect("--moment REF --dealias off", {Moment::ref}, Dealiasing::automatic);
     expect("--moment VEL --dealias auto", {Moment::veld}, Dealiasing::automatic);
     expect("--moment VEL --dealias profile", {Moment::veld}, Dealiasing::profile);
     expect("--moment VELD --dealias region", {Moment::veld}, Dealiasing::region);
@@ -158,7 +159,7 @@ TEST(GridRequest, DealiasThatMakesNoSenseIsBadUsage) {
         {"--moment REF --dealias auto", "--dealias needs --moment VEL"},
         {"--moment SW,RHO --dealias region", "--dealias needs --moment VEL"},
         {"--moment VELD --dealias off",
-         "--dealias off does not go with --moment VELD, the dealiased velocity"},
+         "--dealias off does not go with --moment VELD, which is dealiased"},
     };
     for (const auto& [arguments, message] : said) {
         const auto request = request_for(arguments);
