@@ -292,8 +292,8 @@ TEST_F(IngestTest, APartIsReplacedByTheWholeVolume) {
     EXPECT_FALSE(only_grid("KTLX").provenance.partial);
 }
 
-// Of two complete files of one volume, the same one always gives the grid, in any order and with
-// any modification times. If one file is deleted, the other gives the grid.
+// If two complete files hold one volume, the same file always gives the grid, in any order and with
+// any modification times. If that file is deleted, the other gives the grid.
 TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheSameOneCountsInAnyOrder) {
     const auto write_file = [&](const std::string& name, int sweeps) {
         return put(name, level2::wire::ldm_volume(sweeps, 360));

@@ -111,8 +111,8 @@ TEST(WindProfile, IsRightWhereNearlyAllGatesAreFolded) {
     }
 }
 
-// Of 20 volumes with other noise and with echo that differs from volume to volume, the standard
-// error must be the scatter of the results, within a factor of 1.5.
+// Fits 20 volumes with other noise and other echo. The standard error must be the scatter of the
+// results, within a factor of 1.5.
 TEST(WindProfile, StandardErrorsAreTheScatterOfTheResults) {
     const std::size_t layer_number = 5;
     double squares = 0, variances = 0;
@@ -165,7 +165,7 @@ TEST(WindProfile, MeasuresFallSpeed) {
     EXPECT_NEAR(layers[40].wind->motion.u_mps, 5, 0.2);
 }
 
-// Of five gates, three are clutter, whose velocity is zero.
+// Three of five gates are clutter, whose velocity is zero.
 TEST(WindProfile, IsRightInClutter) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> fifth(1, 5);

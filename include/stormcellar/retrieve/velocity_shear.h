@@ -55,9 +55,9 @@
 
 namespace stormcellar::retrieve {
 
-// Where the velocities pass a median of 3 x 3 gates before the fit. It removes speckle, but it also
-// wipes out small vortices if radials are 1 degree apart: at Moore it lowers the largest shear from
-// 0.041 to 0.016 s^-1 and moves it by 1.5 km.
+// Names the sweeps whose velocities pass a median of 3 x 3 gates before the fit. The median removes
+// speckle, but it also wipes out small vortices if radials are 1 degree apart: at Moore it lowers
+// the largest shear from 0.041 to 0.016 s^-1 and moves the place of that shear by 1.5 km.
 enum class MedianFilter : std::uint8_t { off, super_resolution, always };
 
 struct ShearOptions {
