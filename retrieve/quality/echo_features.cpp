@@ -1,0 +1,274 @@
+#include "retrieve/quality/echo_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "retrieve/sweeps/nearest_sweep.h"
+#include "stormcellar/grid/beam_geometry.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+using level2::Moment;
+
+constexpr float missing = std::numeric_limits<float>::quiet_NaN();
+
+// The place of each gate in another field, and the radials there.
+struct Elsewhere {
+    std::vector<std::int32_t> radials;  // -1: none
+    std::vector<std::int32_t> gates;    // -1: none
+};
+
+std::vector<std::int32_t> gates_elsewhere(const GateField& here, const GateField& there,
+                                          double stretch) {
+    std::vector<std::int32_t> gates(here.gates);
+    for (std::size_t gate = 0; gate < gates.size(); ++gate)
+        gates[gate] = there.gate_at(here.range_m(gate) * stretch);
+    return gates;
+}
+
+// The three ways from a sum to a feature.
+auto mean(const GateField& field) {
+    return [&field](BoxSum sum) { return field.value_of(sum.mean()); };
+}
+auto root_mean(const GateField& field) {
+    return [scale = field.scale](BoxSum sum) { return std::sqrt(sum.mean()) / scale; };
+}
+auto share(const GateBox& box) {
+    return [all = static_cast<float>(box.size())](BoxSum sum) { return sum.count() / all; };
+}
+
+class FeatureMaker {
+  public:
+    FeatureMaker(const level2::Volume& volume, std::size_t sweep, const GateField& field,
+                 const EchoGates& echo, const FeatureVisitor& visit)
+        : volume_(volume),
+          sweep_(volume.sweeps[sweep]),
+          sweep_number_(sweep),
+          field_(field),
+          echo_(echo),
+          visit_(visit) {}
+
+    void visit_dual() {
+        visit_reflectivity();
+        visit_own_sums(Moment::rho, Feature::correlation, 1250, &FeatureMaker::sum_codes);
+        visit_own_sums(Moment::zdr, Feature::zdr_texture, 2250, &FeatureMaker::sum_differences);
+        visit_own_sums(Moment::phi, Feature::phase_texture, 2250, &FeatureMaker::sum_differences);
+    }
+
+    void visit_single() {
+        visit_reflectivity();
+        visit_height();
+        const GateBox box = gate_box(3, 1750, field_);
+        visit_difference_sums(field_, box, Direction::range, 0,
+                              at_own_gates(Feature::range_texture, root_mean(field_)));
+        visit_difference_sums(field_, box, Direction::azimuth, 0,
+                              at_own_gates(Feature::azimuth_texture, root_mean(field_)));
+        const GateBox wide = gate_box(9, 8250, field_);
+        const SumVisitor to_mean = at_own_gates(Feature::mean_reflectivity, mean(field_));
+        const SumVisitor to_share = at_own_gates(Feature::echo_share, share(wide));
+        visit_code_sums(field_, wide, [&](std::size_t radial, const std::uint32_t* sums) {
+            to_mean(radial, sums);
+            to_share(radial, sums);
+        });
+        visit_above();
+        visit_doppler();
+    }
+
+  private:
+    // Calls the visitor with what `value` gives for each gate with echo of a radial.
+    template <class Value>
+    void visit_radial(Feature feature, std::size_t radial, Value value) {
+        const auto gates = echo_.of(radial);
+        values_.resize(gates.size());
+        for (std::size_t i = 0; i < gates.size(); ++i)
+            values_[i] = value(gates[i]);
+        visit_(feature, radial, values_);
+    }
+    template <class Value>
+    void visit_all(Feature feature, Value value) {
+        for (std::size_t radial = 0; radial < field_.radials; ++radial)
+            visit_radial(feature, radial, [&](std::uint32_t gate) { return value(radial, gate); });
+    }
+    void visit_missing(Feature feature) {
+        visit_all(feature, [](std::size_t, std::uint32_t) { return missing; });
+    }
+    void visit_reflectivity() {
+        visit_all(Feature::reflectivity, [&](std::size_t radial, std::uint32_t gate) {
+            return field_.value(radial, gate);
+        });
+    }
+    void visit_height() {
+        // The latitude hardly matters: it changes heights by less than 0.2 %.
+        const grid::BeamGeometry beam(40, 0);
+        const double elevation = sweep_.mean_elevation_deg();
+        std::vector<float> heights(field_.gates);
+        for (std::size_t gate = 0; gate < heights.size(); ++gate)
+            heights[gate] =
+                static_cast<float>(beam.forward({field_.range_m(gate), elevation}).height_m);
+        visit_all(Feature::height, [&](std::size_t, std::uint32_t gate) { return heights[gate]; });
+    }
+    template <class Value>
+    SumVisitor at_own_gates(Feature feature, Value value) {
+        return [this, feature, value](std::size_t radial, const std::uint32_t* sums) {
+            visit_radial(feature, radial,
+                         [&](std::uint32_t gate) { return value(BoxSum(sums[gate])); });
+        };
+    }
+
+    // Another moment of the same sweep has the same radials, and may have other gates.
+    using SumUp = void (FeatureMaker::*)(Feature, const GateField&, const GateBox&);
+    void visit_own_sums(Moment kind, Feature feature, double length_m, SumUp sum_up) {
+        const level2::SweepMoment* moment = sweep_.find(kind);
+        const GateField other = moment != nullptr ? gate_field(sweep_, *moment) : GateField{};
+        if (other.is_empty()) return visit_missing(feature);
+        (this->*sum_up)(feature, other, gate_box(3, length_m, other));
+    }
+    void sum_codes(Feature feature, const GateField& other, const GateBox& box) {
+        visit_code_sums(other, box, at_gates_of(feature, other, mean(other)));
+    }
+    void sum_differences(Feature feature, const GateField& other, const GateBox& box) {
+        const float turn = feature == Feature::phase_texture ? 360 : 0;
+        visit_difference_sums(other, box, Direction::range, turn,
+                              at_gates_of(feature, other, root_mean(other)));
+    }
+    template <class Value>
+    SumVisitor at_gates_of(Feature feature, const GateField& other, Value value) {
+        return [this, feature, value, gates = gates_elsewhere(field_, other, 1)](
+                   std::size_t radial, const std::uint32_t* sums) {
+            visit_radial(feature, radial, [&](std::uint32_t gate) {
+                return gates[gate] >= 0 ? value(BoxSum(sums[gates[gate]])) : missing;
+            });
+        };
+    }
+
+    // Sums of another sweep, kept until the radials of this sweep ask for them.
+    class KeptSums {
+      public:
+        explicit KeptSums(const GateField& field)
+            : gates_(field.gates), sums_(field.radials * field.gates) {}
+        [[nodiscard]] SumVisitor keep() {
+            return [this](std::size_t radial, const std::uint32_t* sums) {
+                std::copy_n(sums, gates_, sums_.data() + radial * gates_);
+            };
+        }
+        [[nodiscard]] BoxSum at(std::int32_t radial, std::int32_t gate) const {
+            return BoxSum(
+                sums_[static_cast<std::size_t>(radial) * gates_ + static_cast<std::size_t>(gate)]);
+        }
+
+      private:
+        std::size_t gates_;
+        std::vector<std::uint32_t> sums_;
+    };
+    template <class Value>
+    void visit_elsewhere(Feature feature, const Elsewhere& place, Value value) {
+        visit_all(feature, [&](std::size_t radial, std::uint32_t gate) {
+            const std::int32_t there = place.radials[radial];
+            return there >= 0 && place.gates[gate] >= 0 ? value(there, place.gates[gate]) : missing;
+        });
+    }
+    template <class Value>
+    void visit_sums(Feature feature, const Elsewhere& place, const KeptSums& sums, Value value) {
+        visit_elsewhere(feature, place, [&](std::int32_t radial, std::int32_t gate) {
+            return value(sums.at(radial, gate));
+        });
+    }
+    void visit_above() {
+        const auto above = sweep_above(volume_, sweep_number_);
+        if (!above) return visit_missing(Feature::reflectivity_above);
+        const level2::Sweep& sweep = volume_.sweeps[*above];
+        const GateField field = gate_field(sweep, *sweep.find(Moment::ref));
+        if (field.is_empty()) return visit_missing(Feature::reflectivity_above);
+        KeptSums sums(field);
+        visit_code_sums(field, gate_box(3, 1250, field), sums.keep());
+        // The same place on the ground is at a longer range there.
+        constexpr double radian = std::numbers::pi / 180;
+        const double stretch = std::cos(sweep_.mean_elevation_deg() * radian) /
+                               std::cos(sweep.mean_elevation_deg() * radian);
+        const Elsewhere place{nearest_radials(azimuths_of(sweep_), sweep),
+                              gates_elsewhere(field_, field, stretch)};
+        visit_sums(Feature::reflectivity_above, place, sums, mean(field));
+    }
+    void visit_doppler() {
+        const auto companion =
+            companion_sweep(volume_, sweep_number_, sweep_.mean_elevation_deg(), Moment::vel);
+        const level2::Sweep* sweep = companion ? &volume_.sweeps[*companion] : nullptr;
+        const GateField velocity =
+            sweep != nullptr ? gate_field(*sweep, *sweep->find(Moment::vel)) : GateField{};
+        if (velocity.is_empty()) {
+            for (const Feature feature :
+                 {Feature::speed, Feature::speed_texture, Feature::speed_share, Feature::width})
+                visit_missing(feature);
+            return;
+        }
+        const Elsewhere place{nearest_radials(azimuths_of(sweep_), *sweep),
+                              gates_elsewhere(field_, velocity, 1)};
+        visit_elsewhere(Feature::speed, place, [&](std::int32_t radial, std::int32_t gate) {
+            return std::abs(
+                velocity.value(static_cast<std::size_t>(radial), static_cast<std::size_t>(gate)));
+        });
+        const GateBox box = gate_box(3, 1750, velocity);
+        KeptSums sums(velocity);
+        visit_difference_sums(velocity, box, Direction::range,
+                              2 * sweep->radials.front().nyquist_mps, sums.keep());
+        visit_sums(Feature::speed_texture, place, sums, root_mean(velocity));
+        visit_code_sums(velocity, box, sums.keep());
+        visit_sums(Feature::speed_share, place, sums, share(box));
+        visit_width(*sweep, place.radials);
+    }
+    void visit_width(const level2::Sweep& sweep, const std::vector<std::int32_t>& radials) {
+        const level2::SweepMoment* moment = sweep.find(Moment::sw);
+        const GateField width = moment != nullptr ? gate_field(sweep, *moment) : GateField{};
+        if (width.is_empty()) return visit_missing(Feature::width);
+        KeptSums sums(width);
+        visit_code_sums(width, gate_box(3, 1750, width), sums.keep());
+        visit_sums(Feature::width, {radials, gates_elsewhere(field_, width, 1)}, sums, mean(width));
+    }
+
+    const level2::Volume& volume_;
+    const level2::Sweep& sweep_;
+    std::size_t sweep_number_;
+    const GateField& field_;
+    const EchoGates& echo_;
+    const FeatureVisitor& visit_;
+    std::vector<float> values_;
+};
+
+}  // namespace
+
+std::string_view feature_name(Feature feature) {
+    static constexpr std::array<std::string_view, feature_count> names = {
+        "reflectivity",       "height",
+        "range_texture",      "azimuth_texture",
+        "echo_share",         "mean_reflectivity",
+        "reflectivity_above", "speed",
+        "speed_texture",      "width",
+        "speed_share",        "correlation",
+        "zdr_texture",        "phase_texture",
+    };
+    return names[static_cast<std::size_t>(feature)];
+}
+
+EchoGates::EchoGates(const GateField& field) : begins_(field.radials + 1, 0) {
+    for (std::size_t radial = 0; radial < field.radials; ++radial) {
+        const std::uint16_t* codes = field.row(radial);
+        for (std::size_t gate = 0; gate < field.gates; ++gate)
+            if (codes[gate] != 0) gates_.push_back(static_cast<std::uint32_t>(gate));
+        begins_[radial + 1] = gates_.size();
+    }
+}
+
+void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
+                    const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit) {
+    FeatureMaker maker(volume, sweep, field, echo, visit);
+    if (rule == QualityRule::dual)
+        maker.visit_dual();
+    else
+        maker.visit_single();
+}
+
+}  // namespace stormcellar::retrieve

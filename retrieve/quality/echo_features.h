@@ -1,0 +1,69 @@
+// retrieve/quality/echo_features.h -- numbers of each gate that tell weather from other echo.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "retrieve/quality/gate_field.h"
+#include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/quality.h"
+
+namespace stormcellar::retrieve {
+
+// Boxes are radials x range. Textures are root mean squares of differences between neighbors.
+enum class Feature : std::uint8_t {
+    reflectivity,        // dBZ, of the gate
+    height,              // m above the antenna
+    range_texture,       // dB, of reflectivity along the radial, 3 x 1.75 km
+    azimuth_texture,     // dB, of reflectivity across radials, 3 x 1.75 km
+    echo_share,          // share of gates with echo, 9 x 8.25 km
+    mean_reflectivity,   // dBZ, 9 x 8.25 km
+    reflectivity_above,  // dBZ, mean of 3 x 1.25 km in the next sweep above
+    speed,               // m/s, of the gate, without its sign, folded
+    speed_texture,       // m/s, along the radial, 3 x 1.75 km
+    width,               // m/s, mean of the spectrum width, 3 x 1.75 km
+    speed_share,         // share of gates with a velocity, 3 x 1.75 km
+    correlation,         // mean of the correlation coefficient, 3 x 1.25 km
+    zdr_texture,         // dB, along the radial, 3 x 2.25 km
+    phase_texture,       // degrees, along the radial, 3 x 2.25 km
+};
+inline constexpr auto feature_count = static_cast<std::size_t>(Feature::phase_texture) + 1;
+
+[[nodiscard]] std::string_view feature_name(Feature feature);
+
+// The gates of a field that have echo.
+class EchoGates {
+  public:
+    explicit EchoGates(const GateField& field);
+
+    // Returns the gates of a radial, in order.
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t radial) const {
+        return std::span(gates_).subspan(begins_[radial], begins_[radial + 1] - begins_[radial]);
+    }
+    // Returns how many gates with echo come before the radial.
+    [[nodiscard]] std::size_t begin(std::size_t radial) const { return begins_[radial]; }
+    [[nodiscard]] std::size_t count() const { return gates_.size(); }
+
+  private:
+    std::vector<std::uint32_t> gates_;
+    std::vector<std::size_t> begins_;
+};
+
+// Gets the values of a feature at the gates with echo of a radial; NaN where the value is missing.
+using FeatureVisitor =
+    std::function<void(Feature feature, std::size_t radial, std::span<const float> values)>;
+
+// Visits the features of a rule, one after the other. `field` is a reflectivity moment of the
+// sweep, and `echo` has its gates. Doppler features come from the sweep itself or from the sweep of
+// nearest elevation, at most 0.3 degrees away; they are missing if there is none.
+void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
+                    const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit);
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,191 @@
+#include "retrieve/quality/gate_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stormcellar::retrieve {
+namespace {
+
+constexpr std::uint32_t one_number = 1U << BoxSum::sum_bits;
+
+// Returns true if the gap between the last and the first radial is no wider than two radials.
+bool ends_meet(const level2::Sweep& sweep) {
+    const std::size_t radials = sweep.radials.size();
+    if (radials < 3) return false;
+    const double gap =
+        std::abs(std::remainder(static_cast<double>(sweep.radials.front().azimuth_deg) -
+                                    static_cast<double>(sweep.radials.back().azimuth_deg),
+                                360));
+    return gap * static_cast<double>(radials) <= 2 * 360;
+}
+
+// Writes the numbers of a radial, each with one_number added, and 0 where there is none.
+using FillRow = std::function<void(std::size_t radial, std::uint32_t* numbers)>;
+
+// Sums numbers over boxes, one radial after another.
+class BoxSums {
+  public:
+    BoxSums(const GateField& field, const GateBox& box, const FillRow& fill)
+        : field_(field),
+          box_(box),
+          fill_(fill),
+          padded_(field.gates + static_cast<std::size_t>(box.gates) - 1),
+          total_(field.gates, 0),
+          rows_(static_cast<std::size_t>(box.radials) * field.gates, 0) {}
+
+    void visit(const SumVisitor& visit) {
+        const int reach = box_.radials / 2;
+        for (int place = -reach; place < reach; ++place)
+            take(place);
+        for (int radial = 0; radial < static_cast<int>(field_.radials); ++radial) {
+            take(radial + reach);
+            visit(static_cast<std::size_t>(radial), total_.data());
+        }
+    }
+
+  private:
+    // Replaces the oldest radial of the box by the radial at a place, which may be beyond the ends.
+    void take(int place) {
+        const int slot = (place + box_.radials) % box_.radials;
+        std::uint32_t* row = rows_.data() + static_cast<std::size_t>(slot) * field_.gates;
+        for (std::size_t gate = 0; gate < field_.gates; ++gate)
+            total_[gate] -= row[gate];
+        sum_radial(place, row);
+        for (std::size_t gate = 0; gate < field_.gates; ++gate)
+            total_[gate] += row[gate];
+    }
+    void sum_radial(int place, std::uint32_t* row) {
+        const int radials = static_cast<int>(field_.radials);
+        if (place < 0 || place >= radials) {
+            if (!field_.is_circle || radials <= box_.radials) {
+                std::fill_n(row, field_.gates, 0U);
+                return;
+            }
+            place = (place + radials) % radials;
+        }
+        const auto half = static_cast<std::size_t>(box_.gates / 2);
+        std::fill_n(padded_.data(), half, 0U);
+        fill_(static_cast<std::size_t>(place), padded_.data() + half);
+        std::fill_n(padded_.data() + half + field_.gates, half, 0U);
+        sum_along(row);
+    }
+    // Sums the padded numbers over the gates of the box. Doubles the length of the sums as often
+    // as possible, and adds those that make up the length of the box.
+    void sum_along(std::uint32_t* row) {
+        std::size_t length = 1, begin = 0;
+        bool is_first = true;
+        for (auto left = static_cast<unsigned>(box_.gates);; left >>= 1U) {
+            if ((left & 1U) != 0) {
+                const std::uint32_t* from = padded_.data() + begin;
+                if (is_first) {
+                    std::copy_n(from, field_.gates, row);
+                } else {
+                    for (std::size_t gate = 0; gate < field_.gates; ++gate)
+                        row[gate] += from[gate];
+                }
+                is_first = false;
+                begin += length;
+            }
+            if (left <= 1) return;
+            for (std::size_t i = 0; i + length < padded_.size(); ++i)
+                padded_[i] += padded_[i + length];
+            length *= 2;
+        }
+    }
+
+    const GateField& field_;
+    GateBox box_;
+    const FillRow& fill_;
+    std::vector<std::uint32_t> padded_, total_, rows_;
+};
+
+// Differences of codes, in whole codes.
+struct Differ {
+    int turn = 0;  // codes around the circle
+    int most = 0;  // a larger difference counts as this
+
+    [[nodiscard]] std::uint32_t number(std::uint16_t a, std::uint16_t b) const {
+        int apart = std::abs(static_cast<int>(a) - static_cast<int>(b));
+        apart = std::min({apart, std::abs(turn - apart), most});
+        const bool has_both = a != 0 && b != 0;
+        return has_both ? one_number + static_cast<std::uint32_t>(apart * apart) : 0;
+    }
+};
+
+}  // namespace
+
+std::int32_t GateField::gate_at(double range_m) const {
+    const double gate = std::round((range_m - first_gate_m) / gate_spacing_m);
+    return gate >= 0 && gate < static_cast<double>(gates) ? static_cast<std::int32_t>(gate) : -1;
+}
+
+GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment) {
+    GateField field;
+    if (moment.gate_spacing_m <= 0 || moment.gate_stride <= 0) return field;
+    field.radials = sweep.radials.size();
+    field.gates = static_cast<std::size_t>(moment.gate_stride);
+    field.first_gate_m = moment.first_gate_m;
+    field.gate_spacing_m = moment.gate_spacing_m;
+    field.scale = moment.scale != 0 ? moment.scale : 1;
+    field.offset = moment.scale != 0 ? moment.offset : 0;
+    field.is_circle = ends_meet(sweep);
+    field.codes.assign(field.radials * field.gates, 0);
+    const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
+    for (std::size_t radial = 0; radial < field.radials; ++radial) {
+        const std::size_t begin = radial * field.gates;
+        const auto keep = [&](const auto& codes) {
+            for (std::size_t at = begin; at < begin + moment.gate_counts[radial]; ++at)
+                field.codes[at] = codes[at] >= first_valid ? codes[at] : std::uint16_t{0};
+        };
+        if (moment.word_size_bits == 8)
+            keep(moment.codes8);
+        else
+            keep(moment.codes16);
+    }
+    return field;
+}
+
+GateBox gate_box(int radials, double length_m, const GateField& field) {
+    const auto half = static_cast<int>(std::lround((length_m / field.gate_spacing_m - 1) / 2));
+    return {radials, 2 * std::clamp(half, 1, 40) + 1};
+}
+
+void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit) {
+    const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
+    const FillRow fill = [&](std::size_t radial, std::uint32_t* numbers) {
+        const std::uint16_t* codes = field.row(radial);
+        for (std::size_t gate = 0; gate < field.gates; ++gate) {
+            const std::uint32_t code = codes[gate];
+            numbers[gate] = code != 0 ? one_number + std::min(code, most) : 0;
+        }
+    };
+    BoxSums(field, box, fill).visit(visit);
+}
+
+void visit_difference_sums(const GateField& field, const GateBox& box, Direction direction,
+                           float turn, const SumVisitor& visit) {
+    // Without a circle, the way round is never the shorter one.
+    const int way_round = turn > 0 ? static_cast<int>(std::lround(turn * field.scale)) : 1 << 20;
+    const auto most = static_cast<int>(
+        std::sqrt(static_cast<double>(BoxSum::most_sum / static_cast<std::uint32_t>(box.size()))));
+    const Differ differ{way_round, most};
+    const FillRow along_range = [&](std::size_t radial, std::uint32_t* numbers) {
+        const std::uint16_t* codes = field.row(radial);
+        numbers[0] = 0;
+        for (std::size_t gate = 1; gate < field.gates; ++gate)
+            numbers[gate] = differ.number(codes[gate], codes[gate - 1]);
+    };
+    const FillRow along_azimuth = [&](std::size_t radial, std::uint32_t* numbers) {
+        if (radial == 0 && !field.is_circle) {
+            std::fill_n(numbers, field.gates, 0U);
+            return;
+        }
+        const std::uint16_t* codes = field.row(radial);
+        const std::uint16_t* before = field.row(radial == 0 ? field.radials - 1 : radial - 1);
+        for (std::size_t gate = 0; gate < field.gates; ++gate)
+            numbers[gate] = differ.number(codes[gate], before[gate]);
+    };
+    BoxSums(field, box, direction == Direction::range ? along_range : along_azimuth).visit(visit);
+}
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,90 @@
+// retrieve/quality/gate_field.h -- the codes of one moment of a sweep, and means and textures of
+// its values in boxes about each gate.
+//
+// Sums are integers, so that they are exact and the order of the gates does not matter.
+//
+// Units     Those of the moment; meters.
+// Accuracy  tests/retrieve/gate_field_test.cpp compares with sums over each box: exact up to the
+//           rounding of floats, unless a difference exceeds 194 codes / sqrt(gates of the box /
+//           27), which counts as that many.
+// Threads   Plain data and pure functions.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::retrieve {
+
+struct GateField {
+    std::size_t radials = 0, gates = 0;
+    double first_gate_m = 0, gate_spacing_m = 0;
+    float scale = 1, offset = 0;       // value = (code - offset) / scale
+    bool is_circle = false;            // the last radial is next to the first
+    std::vector<std::uint16_t> codes;  // radials x gates; 0 where there is no value
+
+    [[nodiscard]] bool is_empty() const { return codes.empty(); }
+    [[nodiscard]] const std::uint16_t* row(std::size_t radial) const {
+        return codes.data() + radial * gates;
+    }
+    [[nodiscard]] double range_m(std::size_t gate) const {
+        return first_gate_m + gate_spacing_m * static_cast<double>(gate);
+    }
+    // Returns the number of the gate at a range, or -1 if the range is outside the field.
+    [[nodiscard]] std::int32_t gate_at(double range_m) const;
+    [[nodiscard]] float value_of(float code) const { return (code - offset) / scale; }
+    // Returns NaN if there is no value.
+    [[nodiscard]] float value(std::size_t radial, std::size_t gate) const {
+        const std::uint16_t code = row(radial)[gate];
+        return code != 0 ? value_of(code) : std::numeric_limits<float>::quiet_NaN();
+    }
+};
+
+// Returns the valid codes of a moment of the sweep. Empty if the moment has no gates.
+[[nodiscard]] GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment);
+
+// A box of radials x gates about a gate; both numbers are odd. Rows follow the order of arrival,
+// and gaps in azimuth do not count. Gates outside the sweep have no value.
+struct GateBox {
+    int radials = 3;
+    int gates = 7;
+    [[nodiscard]] int size() const { return radials * gates; }
+};
+// Returns a box of so many radials and of about so many meters, at least three gates.
+[[nodiscard]] GateBox gate_box(int radials, double length_m, const GateField& field);
+
+// The sum and the count of the numbers in a box.
+class BoxSum {
+  public:
+    static constexpr int sum_bits = 22;
+    static constexpr std::uint32_t most_sum = (1U << sum_bits) - 1;
+    explicit BoxSum(std::uint32_t bits) : bits_(bits) {}
+
+    [[nodiscard]] float count() const { return static_cast<float>(bits_ >> sum_bits); }
+    // Returns NaN if there are no numbers.
+    [[nodiscard]] float mean() const { return static_cast<float>(bits_ & most_sum) / count(); }
+
+  private:
+    std::uint32_t bits_;  // count, then sum
+};
+
+// Gets the sums about the gates of a radial, from which BoxSum is made.
+using SumVisitor = std::function<void(std::size_t radial, const std::uint32_t* sums)>;
+
+// Visits the sums of the codes in the box about each gate.
+void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit);
+
+enum class Direction : std::uint8_t { range, azimuth };
+
+// Visits the sums of the squared differences between the codes of successive gates or radials.
+// `turn` is the length of the circle on which the values lie (twice the Nyquist velocity, 360
+// degrees), or 0.
+void visit_difference_sums(const GateField& field, const GateBox& box, Direction direction,
+                           float turn, const SumVisitor& visit);
+
+}  // namespace stormcellar::retrieve
