@@ -3,7 +3,7 @@
 // A budget bounds the model error: the difference between a chosen form of a chain and its exact
 // form (stormcellar/accuracy/chain.h), on the same gates. It does not bound how well the radar
 // sampled the storm; that error is reported, but has no budget.
-//   position_m  largest distance between the sample of a cell and its true place
+//   position_m  largest distance from the point that a cell should sample to the point it samples
 //   value       99th percentile over cells with a value in both forms, in the unit of the moment
 //   image_de    99th percentile over the pixels, CIEDE2000
 //   time_s      wall clock time of the whole chain

@@ -1,5 +1,5 @@
-// stormcellar/accuracy/candidate.h -- all choices that the settings allow, with the cost and the
-// error of each.
+// stormcellar/accuracy/candidate.h -- lists all choices (stormcellar/accuracy/chain.h) that the
+// user's settings allow, with the cost and the error of each.
 //
 // Units     Costs are in seconds. Efforts are in a fixed scale (Effect::effort).
 // Threads   Candidates are plain values and all functions are pure.
@@ -28,11 +28,10 @@ inline constexpr std::size_t most_candidates = 65536;
 // without efforts are ordered by cost instead. Costs are measured, so the order then depends on how
 // busy the machine was.
 //
-// A choice that leaves off an effect of unbounded size, although the settings allow it to be on, is
-// not listed. No budget allows such a choice, not even a budget that does not bound the quantity.
-// Among choices of equal effort, the choice with fewer effects off comes first, because its
-// accuracy costs nothing; then the choice with the higher rung at the first step where two choices
-// differ.
+// A choice is not listed if it leaves off an effect of unbounded size that the settings allow to be
+// on. No budget allows such a choice, not even a budget that does not bound the quantity. Among
+// choices of equal effort, the choice with fewer effects off comes first, because its accuracy
+// costs nothing; then the choice with the higher rung at the first step where two choices differ.
 //
 // Errors: the errors of validate(); unsupported for more than most_candidates choices.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);

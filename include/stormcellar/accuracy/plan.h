@@ -1,7 +1,7 @@
 // stormcellar/accuracy/plan.h -- the planner's choice, and the reason why each effect is on or off.
 //
 // There is a plan even if nothing meets the budget. The plan then holds the best choice, and
-// `shortfall` names this choice, its error and the settings in the way.
+// `shortfall` names this choice, its error and the settings that prevent a better choice.
 //
 // Units     Times are in seconds; values are in `value_unit`; the units of sizes are in
 //           stormcellar/accuracy/quantity.h.

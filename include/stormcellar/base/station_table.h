@@ -37,9 +37,9 @@ struct Station {
 [[nodiscard]] std::optional<Station> find_station(std::string_view icao);
 
 // Returns the station with which a file name begins, as in KTLX20240601_220000_V06 or, in NCEI's
-// names, 6500KTLX19910720_160529.Z. Otherwise returns the station that is a word of the name, as in
-// Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or that begins a word and is followed
-// by a digit. Ignores case. Returns an empty text if find_station() finds none of these, or if
+// names, 6500KTLX19910720_160529.Z. Otherwise looks for a station in the words of the name: a whole
+// word, as in Level2_KTLX_19990503_2356.ar2v and 19990503_235621_KTLX.gz, or the start of a word
+// before a digit. Ignores case. Returns an empty text if find_station() knows none of these, or if
 // words name different stations.
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 

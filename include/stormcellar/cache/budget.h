@@ -15,7 +15,7 @@
 //
 // A group is known if the opener of the store says so (Surroundings::is_known in store.h; by
 // default is_known_group() below). Every other group counts as an invented station until it becomes
-// known; its grids are the grids of others.
+// known. Its grids are called grids of others below.
 //   others     Grids of others are evicted before any grid of a known group, and no grid of a known
 //              group is evicted for them. Together they hold at most a tenth of the space of the
 //              total budget; grids beyond that are not kept. A roll also evicts grids of others

@@ -63,7 +63,7 @@ struct Surroundings {
     std::function<bool(std::string_view group)> is_known = is_known_group;
 };
 
-// The work since the previous roll, commits included.
+// Evictions since the previous roll, including those by commits.
 struct RollReport {
     std::uint64_t evicted = 0, evicted_bytes = 0;
     // One line for each budget that cannot be kept, and for failures to read the cache or to remove
@@ -88,9 +88,9 @@ class Roller;
 // The events that a committed grid survives.
 enum class Durability {
     power_cut,
-    // Only a crash of the process. Readers see the grid whole or not at all, but after a power cut
-    // the file may be damaged, missing or the previous one. Use this for grids that are replaced
-    // within seconds and can be made again.
+    // The grid survives a crash of the process. After a power cut its file may be damaged, missing
+    // or the previous one. Use this for grids that are replaced within seconds and can be made
+    // again.
     until_a_crash,
 };
 

@@ -1,4 +1,5 @@
-// stormcellar/grid/audit_row.h -- what an audit found for one sweep and one class of ranges.
+// stormcellar/grid/audit_row.h -- the result of an audit, which compares a grid with its gates, for
+// one sweep and one class of ranges.
 //
 // grid/judge/audit.h makes the rows. Every grid file holds rows, so each takes only 32 bytes
 // (docs/cache-format.md).

@@ -3,9 +3,8 @@
 //
 // Units     Meters and degrees; heights are above mean sea level. The sphere is the sphere of
 //           stormcellar/grid/beam_geometry.h.
-// Range     As the radar reports it. The traced beam takes the range for the optical path
-//           (stormcellar/grid/ray_tracer.h). The two other beams take the range for the length of
-//           the path.
+// Range     As the radar reports it. For the traced beam, the range is the optical path
+//           (stormcellar/grid/ray_tracer.h); for the two other beams, the length of the path.
 // Cost      path() integrates a traced beam once (some 70 us; 0.2 ms with 300 levels). After that,
 //           each call of the path costs tens of nanoseconds.
 // Threads   Both classes are immutable and cheap to copy; many threads may use one object.

@@ -16,9 +16,9 @@
 //                  about the site in which arc and azimuth are polar coordinates
 //   weight         1; the share of the mixed weight that was seen, 1 - u of the status rule
 //                  (grid/sweep/mixture.h): 1/2 to 1
-// If a cell has an extent, its weight describes the whole cell and its other details describe the
-// center. If the method mixes several gates, or the cell has an extent, a cell may be seen although
-// none of its nearest gates sees it. Then only its weight is known.
+// If cells are areas (CellExtent::area), the weight describes the whole cell and the other details
+// describe its center. If cells are areas or the method mixes several gates, a cell may be seen
+// although none of its nearest gates sees it. Then only its weight is known.
 //
 // Units     Seconds and meters, as above.
 // Threads   Plain values; see CellDetails::put() for writing.

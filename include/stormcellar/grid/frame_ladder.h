@@ -32,7 +32,7 @@
 namespace stormcellar::grid {
 
 // The rungs, from coarse to exact. The table is the cheapest, except for grids of a few hundred
-// columns (docs/geometry.md).
+// columns.
 enum class FrameKind : std::uint8_t {
     sphere,    // great circles of a sphere of 6371 km
     table,     // polynomials through exact geodesics

@@ -43,7 +43,7 @@ class GridSampler {
     [[nodiscard]] const BrickView& view() const { return view_; }
 
   private:
-    // The part of a cell's address and of its brick number that its place on one axis adds.
+    // The terms that a cell's index on one axis adds to its address and to its brick number.
     struct Step {
         std::size_t offset = 0;
         std::size_t brick = 0;

@@ -34,7 +34,7 @@
 //           within 0.51 steps of the codes of the exact rule applied to the values in the partials.
 //           If the exact result is below the least code (in a mean with detection limits), the
 //           merged value is the least code. The state equals the exact rule's state, except where
-//           two weights differ by less than 1e-5 of themselves. The partials' own errors add to
+//           two weights differ by less than 1e-5 of their size. The errors of the partials add to
 //           this.
 #pragma once
 

@@ -30,10 +30,10 @@
 
 namespace stormcellar::grid {
 
-// Selects a sweep of a volume. If `number` is given, it selects the sweep. Otherwise the sweep
-// whose fixed angle is nearest to the elevation is selected, at most `farthest_deg` away, or the
-// lowest sweep if no elevation is given. If several sweeps have this angle (SAILS, split cuts), the
-// rules of choose_sweeps() select one of them, where `nearest_to` is the time.
+// Selects a sweep of a volume: the sweep with `number`, if that is given. Otherwise the sweep whose
+// fixed angle is nearest to the elevation is selected, at most `farthest_deg` away, or the lowest
+// sweep if no elevation is given. If several sweeps have this angle (SAILS, split cuts),
+// choose_sweeps() with the time `nearest_to` selects one of them.
 struct SweepWish {
     static constexpr double farthest_deg = 1;
     std::optional<double> elevation_deg{};

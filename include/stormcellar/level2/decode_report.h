@@ -50,9 +50,9 @@ struct DecodeReport {
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
     std::uint64_t errors = 0;  // number of problems of that severity, listed or not
-    // First place where the decoder expected a message and found none; none for an undamaged
-    // stream. The golden files use the same definition. The dropped bytes may begin earlier; the
-    // Problem has the offset of the first dropped byte.
+    // First place where the decoder expected a message and found none; empty for an undamaged
+    // stream. The dropped bytes may begin earlier; the Problem has the offset of the first dropped
+    // byte. The golden files (tests/level2/golden_test.cpp) use the same definition.
     struct Corruption {
         std::uint64_t offset = 0;
         std::string reason;

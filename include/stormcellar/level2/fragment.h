@@ -44,7 +44,7 @@ struct Fragment {
     // The number of decompressed bytes, messages or not, plus BzipBlocks::waste_of() for failed
     // attempts to decompress.
     std::uint64_t output_bytes = 0;
-    std::uint64_t array_bytes = 0;  // the bytes of radials, rows and patterns, see ArrayRoom
+    std::uint64_t array_bytes = 0;  // of radials, rows and patterns, as ArrayRoom counts
     // Number of errors in `report` after the last radial; all errors if there is no radial.
     std::uint64_t errors_behind = 0;
     bool cut = false;  // the input ends too early

@@ -27,8 +27,8 @@ inline constexpr std::uint64_t most_live_bytes = std::uint64_t{64} << 20;
 // Returns the bytes of the sweep's arrays and radials, including the share of the allocator.
 [[nodiscard]] std::uint64_t bytes_of(const Sweep& sweep);
 
-// Returns true if the sweep's first and last radial are marked as such by their status, and no
-// radial between them is missing or repeated.
+// Returns true if the status of the first radial marks the start of the sweep, the status of the
+// last radial marks its end, and no radial between them is missing or repeated.
 [[nodiscard]] bool is_whole(const Sweep& sweep);
 
 }  // namespace stormcellar::level2

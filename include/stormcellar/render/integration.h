@@ -1,4 +1,4 @@
-// stormcellar/render/integration.h -- how the values between two slices make up a step of a ray.
+// stormcellar/render/integration.h -- how a ray adds up the values between two slices (one step).
 //
 // Threads   Plain values.
 // Errors    None.

@@ -10,7 +10,7 @@
 //   shadow      Echo between a place and the sun dims sunlight there, and echo around the place
 //               dims the light of the sky (ambient occlusion).
 //   scattering  Like shadow, but echo is brightest where the camera looks through it toward the
-//               sun: single scattering by the phase function of Henyey and Greenstein with g = 0.4.
+//               sun (single scattering, phase function of Henyey and Greenstein, g = 0.4).
 //
 // Units     Degrees.
 // Threads   Plain data and pure functions.

@@ -57,7 +57,7 @@ struct Eye {
 // A camera without a place of its own is outside the grid and looks at the middle of the box that
 // holds the cells and the ground under them.
 struct Camera {
-    double azimuth_deg = 180;  // where the camera is; from 180, the south, north is up
+    double azimuth_deg = 180;  // direction to the camera; from 180, the south, north is up
     double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground, and for a
                                // camera with a place of its own 180 straight up
     double zoom = 1;           // 1: the whole grid fits into the image

@@ -8,8 +8,8 @@
 //              than 1 % of the drop within 1,000 km.
 // Camera       Orthographic or perspective. A camera without a place of its own looks at the middle
 //              of the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture. If such a camera has a look_at, it moves the picture
-//              and keeps the scale.
+//              box just fits into the picture. A look_at of such a camera moves the picture and
+//              keeps the scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
 // Depth        Meters along forward(), from the camera (perspective) or from the middle
