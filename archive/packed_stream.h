@@ -22,10 +22,10 @@ namespace stormcellar::archive {
 
 // Bounds the bytes that libarchive reads while it looks for the next header. libarchive stores the
 // contents of a header before it returns the header, so only the source of the bytes can bound
-// these contents. In memory, the map of a sparse file takes twelve times its size, and the
-// directory of a zip three times. A block counts as a whole, so the source gives its bytes in small
-// blocks. A deadline bounds everything else that libarchive reads, because one call may unpack
-// gigabytes just to skip them.
+// these contents. libarchive takes twelve bytes of memory for each byte of the map of a sparse
+// file, and three for each byte of the directory of a zip. A block counts as a whole, so the source
+// gives its bytes in small blocks. A deadline bounds everything else that libarchive reads, because
+// one call may unpack gigabytes just to skip them.
 class ReadBudget {
   public:
     void set_deadline(SteadyTime deadline) { deadline_ = deadline; }
@@ -34,8 +34,8 @@ class ReadBudget {
         counts_ = true;
     }
     void end() { counts_ = false; }
-    // Counts the bytes beyond 8 KiB of a header that was read. More than 4 MiB in all headers
-    // together spend the budget, because many long headers may take too much time.
+    // Counts a header of this many bytes. If the bytes of headers beyond their first 8 KiB exceed 4
+    // MiB together, the budget is spent, because many long headers may take too much time.
     void add(std::uint64_t bytes);
     // Counts a block. Returns false, and sets the error of the handle, if the header is too long or
     // the deadline has passed.

@@ -14,7 +14,7 @@ namespace stormcellar {
 
 // Reads the [[station]] tables, at most 512. Complains about invalid values and records the keys as
 // read, so check TomlFile::finish(). Leaves out stations without a usable `icao`; a station with a
-// bad coordinate is returned with 0 in its place.
+// bad coordinate is returned with 0 for that coordinate.
 [[nodiscard]] std::vector<AddedStation> read_added_stations(TomlTable& root);
 
 // Returns the message about a name that does not have the form of a station's name: `"x" is not a

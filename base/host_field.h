@@ -7,8 +7,8 @@
 
 namespace stormcellar {
 
-// Returns the name without its port; empty if the field has another form, for example without
-// digits after the colon.
+// Returns the host's name without the port; empty if the field has another form, for example
+// without digits after the colon.
 [[nodiscard]] std::string_view name_in_host_field(std::string_view host) noexcept;
 
 // Returns true if the field's name is 127.0.0.1, localhost (in upper or lower case) or [::1].

@@ -4,8 +4,8 @@
 //   bytes      16 bits for ranges of 16 bytes; for each set bit, 16 bits for the bytes of its range
 //   counts     3 bits: number of codes, 2 to 6; 15 bits: number of selectors, at least 1
 //   selectors  for each group, the place of its code in a move-to-front list, as ones and a zero
-//   codes      for each code, 5 bits: first length; then for each symbol its changes to the length
-//              of the symbol before, 10 (one longer) or 11 (one shorter), and a 0
+//   codes      for each code, the first length in 5 bits; then for each symbol the changes from the
+//              length of the symbol before: 10 is one longer, 11 one shorter, 0 the end
 //
 // Threads   One thread at a time.
 #pragma once

@@ -133,9 +133,9 @@ struct CatalogReader::Impl {
     [[nodiscard]] Result<std::vector<std::string>> names();
 
     // Returns the names of the databases that may have a row of the path. A row in another database
-    // than home_of() is a stray: the data of its file are not of the station in its name. A writer
-    // sees every write, so it remembers the paths of strays (PathFilter) and need not look up a new
-    // file in every database.
+    // than home_of() is a stray: the station of the file's data is not the station in the file's
+    // name. A writer sees every write, so it remembers the paths of strays (PathFilter) and need
+    // not look up a new file in every database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
     // Searches a database for strays if names_that_may_have() did not, because it has too many

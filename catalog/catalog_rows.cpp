@@ -1,5 +1,6 @@
-// The regular work of a writer on all rows: marking rows of missing files, and deleting old rows.
-// If one station's database cannot be used (troubles()), the work continues with the others.
+// Defines the regular work of a CatalogWriter on all rows: it marks rows of missing files and
+// deletes old rows. If one station's database cannot be used (troubles()), the work continues with
+// the others.
 #include <algorithm>
 #include <map>
 #include <span>

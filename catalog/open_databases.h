@@ -32,7 +32,7 @@
 
 namespace stormcellar::catalog {
 
-// Tells two files apart that had the same path.
+// Identifies a file, because another file may have replaced it at its path.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -49,7 +49,7 @@ enum class Strays : std::uint8_t {
     too_many_rows,  // not searched, because a file would wait for long; mark_missing() does it
 };
 
-// The place of one database.
+// One database of the catalog, which may be open or closed.
 struct Slot {
     Mutex mutex;
     std::unique_ptr<StationDatabase> database STORMCELLAR_GUARDED_BY(mutex);

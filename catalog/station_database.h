@@ -143,7 +143,7 @@ class StationDatabase {
     bool is_snapshot_ = false;
     bool is_durable_ = true;  // applies to the next transaction that may write
     std::uint64_t most_bytes_ = CatalogOptions::no_limit;
-    bool may_have_gone_ = true;  // false: no rows are gone
+    bool may_have_gone_ = true;  // false: no row is marked as gone
 };
 
 }  // namespace stormcellar::catalog

@@ -17,8 +17,8 @@
 
 namespace stormcellar::level2 {
 
-// The framer ignores a larger length at once, without waiting for so many bytes. The largest known
-// volume has 12 MB.
+// The longest record. The framer ignores a larger length at once, without waiting for so many
+// bytes. The largest known volume has 12 MB.
 inline constexpr std::size_t longest_record_bytes = std::size_t{32} << 20;
 
 struct LdmPart {

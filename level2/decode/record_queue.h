@@ -3,9 +3,9 @@
 //
 // The thread that calls next() decodes too, so `threads` includes this thread. The queue holds at
 // most two fragments for each thread, and each fragment is small. A fragment that outgrows its
-// share waits until it is the next to be returned. With more than most_waiting_threads, the queue
-// discards such a fragment, and the caller decodes its record again when its turn comes, because
-// the C library keeps freed memory for each thread.
+// share waits until it is the next to be returned. With more than most_waiting_threads threads, the
+// queue discards such a fragment, and the caller decodes its record again when its turn comes,
+// because the C library keeps freed memory for each thread.
 //
 // The output does not depend on the number of threads. When less room is left than a share, the
 // caller alone decodes, and discards fragments that were decoded ahead.
