@@ -1,5 +1,5 @@
-// base/load_module.h -- loads modules, which are libraries that few commands need and that would
-// slow down the start of all commands.
+// base/load_module.h -- loads modules: libraries that few commands need. If the programs were
+// linked with them, every command would start more slowly.
 //
 // A module is loaded when it is first used, and stays loaded.
 //

@@ -9,7 +9,7 @@
 //           Checksums of blocks and of the stream are always checked. libbz2 itself reads streams
 //           with randomized blocks. With Path::libbz2, it reads all streams.
 // Safety    Nothing is read outside `stream` or written outside `out`, whatever the stream holds. A
-//           Reader may find only later that bytes which it has returned are corrupt. The caller
+//           Reader may return bytes and find only later that they are corrupt. The caller
 //           must bound the output, because one byte of input can make about 2 MB.
 // Memory    A Workspace takes 10.2 MB at most, for blocks of 900,000 bytes. While libbz2 reads a
 //           stream, its Reader takes 3.7 MB more. Without enough memory, the functions throw

@@ -31,8 +31,8 @@ constexpr std::uint32_t power_of_x(unsigned exponent) {
     return remainder;
 }
 
-// Makes tables in which tables[k][b] is the change to the state by a byte b that k more bytes
-// follow.
+// Makes tables in which tables[k][b] is the change to the state by a byte b with k more bytes after
+// it.
 constexpr auto make_tables() {
     std::array<std::array<std::uint32_t, 256>, 16> tables{};
     for (std::uint32_t byte = 0; byte < 256; ++byte) {

@@ -91,7 +91,7 @@ class StationDatabase {
     void forget(const std::filesystem::path& path);
     // Returns the numbers of rows that are gone and were made before `before`.
     std::vector<std::int64_t> gone_before(UtcTime before);
-    // Deletes those of `rows` that are still gone and were made before `before`, in one
+    // Deletes the rows in `rows` that are still gone and were made before `before`, in one
     // transaction. Returns how many were deleted.
     int forget_gone(std::span<const std::int64_t> rows, UtcTime before);
     // Deletes the oldest rows of files that are gone, at most `most`, in one transaction. Returns

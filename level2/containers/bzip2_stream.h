@@ -46,7 +46,7 @@ class BzipBlocks {
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
-    // Returns the bytes that count for a failed try that unpacked this many bytes.
+    // Returns the bytes that a failed try counts if it unpacked this many bytes.
     [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
         return std::max(unpacked_bytes, least_try_bytes) / 2;
     }

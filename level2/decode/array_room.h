@@ -47,7 +47,7 @@ class ArrayRoom {
     // counted.
     [[nodiscard]] bool add(std::uint64_t bytes);
     [[nodiscard]] bool begin_sweep();
-    // Begins a piece that may continue a sweep that was already counted.
+    // Begins a piece that may continue a sweep counted before.
     void continue_sweep();
     [[nodiscard]] bool add_radials(std::size_t count);
     // Counts rows of at least `gates` gates for kind number `moment` of the sweep.

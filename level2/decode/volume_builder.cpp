@@ -127,8 +127,8 @@ void VolumeBuilder::note_volume_facts(const Fragment& fragment) {
     }
 }
 
-// Returns the pattern of a further volume that begins with this piece. A message 5 from before its
-// first sweep counts only if the radials name the same pattern.
+// Returns the pattern of a further volume that begins with this piece. A message 5 that came before
+// the volume's first sweep counts only if the radials name the same pattern.
 DecodeReport::FurtherPattern VolumeBuilder::pattern_of(const Fragment::Piece& piece) {
     if (current_vcp_ && !vcp_is_new_ && piece.vcp != 0 &&
         piece.vcp != current_vcp_->pattern_number) {

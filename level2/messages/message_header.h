@@ -63,13 +63,13 @@ inline constexpr std::size_t sure_message_bytes = 128;  // is_surely_message() r
 [[nodiscard]] std::vector<std::string_view> oddities_of(const MessageHeader& header,
                                                         std::span<const std::byte> body);
 
-// Returns true if the message at the start of `bytes` is a radial whose pointers and gate counts
-// fit into the message so well that it cannot be chance. Name, date, time, numbers and angles do
+// Returns true if the message at the start of `bytes` is a radial, and its pointers and gate counts
+// fit into the message so well that this cannot be chance. Name, date, time, numbers and angles do
 // not matter.
 [[nodiscard]] bool places_its_gates(const MessageHeader& header, std::span<const std::byte> bytes);
-// Returns true if `message` is a credible radial whose length is beyond doubt: a message 1 with
-// gate counts, or a message 31 whose body gives the same length as its header, as in all known
-// files. `message` must be as long as its header says.
+// Returns true if `message` is a credible radial and its length is beyond doubt. It is either a
+// message 1 with gate counts, or a message 31 whose body and header give the same length, as in all
+// known files. `message` must be as long as its header says.
 [[nodiscard]] bool is_firm_radial(const MessageHeader& header, std::span<const std::byte> message);
 
 // Returns the first place at or after `from` where a message of type 1 to 31 surely begins, or

@@ -46,7 +46,7 @@ inline constexpr std::size_t longest_budget_text = 200;
 // ratio, dE (before or after its number), ms and s, in upper or lower case.
 [[nodiscard]] Result<Budget> parse_budget(std::string_view text);
 
-// Writes a budget as text from which parse_budget() reads the same budget.
+// Writes a budget as text that parse_budget() reads back without loss.
 [[nodiscard]] std::string format_budget(const Budget& budget);
 
 }  // namespace stormcellar::accuracy

@@ -84,9 +84,9 @@ struct RungRange {
 };
 [[nodiscard]] RungRange allowed_rungs(const Step& step);
 
-// Checks a chain. Returns bad_argument if a name is invalid or occurs twice, a size or a cost of an
-// effect is NaN or negative, a cost is infinite, a joint cost does not belong to two rungs of
-// different steps, or an effect is set on although an effect below it in the same step cannot be
+// Checks a chain. Returns bad_argument if a name is invalid or occurs twice; if a size or a cost of
+// an effect is NaN or negative; if a cost is infinite; if a joint cost does not belong to two rungs
+// of different steps; or if an effect is set on, but an effect below it in the same step cannot be
 // on. An infinite size is valid: it means that no bound is known, so no budget lets the effect be
 // off.
 [[nodiscard]] Status validate(const Chain& chain);

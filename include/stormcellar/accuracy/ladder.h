@@ -1,9 +1,9 @@
 // stormcellar/accuracy/ladder.h -- a table of the accuracy and the time of each rung, which is one
 // form of a step (stormcellar/accuracy/chain.h).
 //
-// Each row compares one rung of a step, with all other steps exact, with the exact form of the
-// chain. fields() serves the Markdown table and the command line's JSON; its keys name their units,
-// as in "value_p99_db". format_table() is for people: it has fewer columns, with words as headings.
+// Each row compares the exact form of the chain with a chain in which one step is at another rung.
+// fields() serves the Markdown table and the command line's JSON; its keys name their units, as in
+// "value_p99_db". format_table() is for people: it has fewer columns, with words as headings.
 //
 // Threads   Rows are plain values. All functions are pure except mark_pareto(), which changes its
 //           rows.

@@ -69,7 +69,7 @@ struct Budgets {
     // total budget limits bytes or percent. A budget of age alone does not allow evicting grids
     // sooner.
     [[nodiscard]] bool makes_room(std::string_view group) const;
-    // Returns the bytes to which a cache that exceeds `limit` is brought down.
+    // Returns the bytes that remain when a cache has exceeded `limit` and grids were evicted.
     [[nodiscard]] std::uint64_t low_mark(std::uint64_t limit) const;
     bool operator==(const Budgets&) const = default;
 };

@@ -39,8 +39,8 @@ struct GridDescription {
 [[nodiscard]] GridDescription describe(const grid::Grid& grid);
 
 // Writes the file and returns its size on disk in bytes, without holes. The same cells and
-// description give the same bytes. Errors: io, no_space and others of the file system, after which
-// the path has the old file (or the new one, whole, if only the sync of the directory failed);
+// description give the same bytes. Errors: io, no_space and others of the file system; the path
+// then has the old file, or the whole new file if only the sync of the directory failed.
 // bad_argument for a description or view that a file cannot hold, for example with names and notes
 // of more than 1 MiB, more than 4,194,304 bricks, a time outside the years 1970 to 9999, or bricks
 // that do not fit the spec.
@@ -97,11 +97,11 @@ class GridFile {
     // evicted. Errors: exhausted.
     [[nodiscard]] Result<Descriptor> duplicate_descriptor() const;
     [[nodiscard]] Packing packing() const;
-    // Checks, with one system call, that the file still has the size that it had when it was
-    // opened. Errors: truncated or corrupt if another program cut or lengthened it. Reading mapped
-    // codes of a cut file raises SIGBUS, unless the program has installed the guard of
-    // cache/map_guard.h. With the guard, the codes read as 0 (not seen), and check_whole() returns
-    // truncated afterward. So call it after using a view. Our own programs never cut a file.
+    // Checks, with one system call, that the size of the file has not changed since it was opened.
+    // Errors: truncated or corrupt if another program cut or lengthened it. Reading mapped codes of
+    // a cut file raises SIGBUS, unless the program has installed the guard of cache/map_guard.h.
+    // With the guard, the codes read as 0 (not seen), and check_whole() returns truncated
+    // afterward. So call it after using a view. Our own programs never cut a file.
     [[nodiscard]] Status check_whole() const;
     // Reads the whole file again, but not through the map, so that a cut file gives an error.
     // Checks that header, table and states have not changed since open(), that every stored brick

@@ -1,6 +1,6 @@
 // stormcellar/catalog/radar_set.h -- gives the files of a station, raw or decoded.
 //
-// The interface follows the storage-broker client of the 2008 paper, so that programs that use that
+// The interface follows the storage-broker client of the 2008 paper, so that programs for that
 // client can be ported. A file is only returned if it is still the cataloged one
 // (stormcellar/catalog/read_cataloged.h).
 //

@@ -1,8 +1,9 @@
 // stormcellar/grid/frame_ladder.h -- the rungs of the site frame: how to find azimuth and arc from
 // a site, and how far off each rung may put a column.
 //
-// The error of a column is a distance in the azimuthal equidistant plane about the site, from the
-// true place of the column (by geodesics of WGS84) to its azimuth and arc in a ColumnGeometry.
+// The error of a column is the distance from its true place (by geodesics of WGS84) to the place
+// that its azimuth and arc in a ColumnGeometry give, in the azimuthal equidistant plane about the
+// site.
 //
 // tests/grid/frame_ladder_test.cpp enforces each of these bounds, for grids all around their site,
 // sites from pole to pole and reaches of 15 to 450 km. It checks that no error exceeds the bound,

@@ -10,8 +10,8 @@
 // depends on the arc r from the cell's column to the site:
 //   mean               The weight is 1.
 //   distance_weighted  The weight is exp(-r^2 / L^2) (Zhang, Howard and Gourley 2005; with L = 250
-//                      km Lakshmanan et al. 2006). The weight is never below 1e-30, so that a
-//                      cell that only one far site sees keeps its state.
+//                      km Lakshmanan et al. 2006). The weight is never below 1e-30, so that a cell
+//                      seen only by one far site keeps its state.
 //     both             States mix by the rule of docs/geometry.md. The cell is range folded if
 //                      range folded has the largest weight, else no echo if no echo outweighs
 //                      values, else the weighted mean of the values. For REF, a site that sees no

@@ -1,5 +1,5 @@
-// stormcellar/level2/moment.h -- the moments that a radar measures or that the program derives from
-// them, and the facts about each.
+// stormcellar/level2/moment.h -- lists the moments, which a radar measures or the program derives,
+// with the facts about each.
 //
 // This is the only list of moments. Two rooms add facts in tables that have a row for every moment;
 // code with a missing row does not compile:

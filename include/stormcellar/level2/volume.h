@@ -65,7 +65,7 @@ struct Radial {
 
 // One moment of one sweep: rows of `gate_stride` codes, one row for each radial of the sweep. If
 // the radials of a sweep differ in gate geometry, word size, scale or offset, the sweep has one
-// SweepMoment for each such kind of radial; its gate_counts is 0 for radials of the other kinds.
+// SweepMoment for each kind of radial, in which gate_counts is 0 for radials of other kinds.
 struct SweepMoment {
     Moment moment = Moment::ref;
     std::int32_t first_gate_m = 0;  // to the center of gate 0; negative in some legacy volumes

@@ -68,10 +68,10 @@ struct AnimationOptions {
 class AnimationWriter : public Interface {
   public:
     // Creates a writer. `file_system` must outlive it. Errors: bad_argument for an ending that this
-    // build does not know (the message lists the endings that it knows), options outside their
-    // range, or metadata with a zero byte or a keyword that is empty or longer than 79 characters;
-    // unsupported if the module for videos is missing; the system's reason if the file cannot be
-    // written, which is checked here before any frame is drawn.
+    // build does not know (the message lists the known endings), for options outside their range,
+    // and for metadata with a zero byte or with a keyword that is empty or longer than 79
+    // characters; unsupported if the module for videos is missing; the system's reason if the file
+    // cannot be written. create() checks this before any frame is drawn.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());
