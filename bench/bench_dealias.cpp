@@ -1,21 +1,21 @@
-// bench_dealias: dealiases velocities with each rung, and prints time and result.
+// bench_dealias: dealiases real velocities with each method (rung), and prints its time and result.
 //
 // usage: bench_dealias [--data DIR] [--runs N] [--case] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
-// Prints a row for each file and rung:
+// Prints a row for each file and each method:
 //   file         its name
-//   rung         region or anchored
+//   rung         the method, region or anchored
 //   gates        gates with a velocity
 //   folded       gates with a fold number other than 0
-//   ambiguous    gates that are marked
+//   ambiguous    gates that are marked ambiguous
 //   jumps        pairs of adjacent gates that differ by more than the Nyquist velocity afterward
 //   seconds      CPU time of one thread, the least of the runs
 // FILE is a Level II file. With --case it is a file that bench/compare_dealiasing.py wrote, which
 // holds sweeps with their true fold numbers: a number of sweeps; for each sweep the numbers of
 // radials and gates, the first gate and the spacing in meters (all 32-bit); azimuth, elevation and
 // Nyquist velocity of each radial and the velocity of each gate (32-bit floats); and the fold
-// number of each gate (8 bits), -128 where it is unknown. Then the row has also:
-//   wrong_pct         gates with another fold number than the true one
+// fold number of each gate (8 bits), -128 where it is unknown. With --case, a row also has:
+//   wrong_pct         share of the gates whose fold number is not the true one
 //   marked_wrong_pct  share of the wrong gates that are marked ambiguous
 //   marked_right_pct  share of the right gates that are marked ambiguous
 #include <cmath>

@@ -5,12 +5,13 @@
 // --sweeps: Sends three real volumes, or the named files, record by record, on a machine that
 // should do nothing else. A client reads the events of the station. There is a row for each volume
 // and way of sending:
-//   as              appended to one file that is closed each time, or one file for each chunk
+//   as              growing: records are appended to one file, which is closed after each record;
+//                   chunks: each record becomes a file
 //   sweeps          sweeps that had an event
 //   grid_*_ms       from the close of a sweep's last chunk to the rename of its grid
-//   event_*_ms      from the rename of a grid to its event at the client
-//   bzip2_p50_ms    bunzip alone for the same chunks
-//   *_beyond_*      the time less the time of bunzip, chunk by chunk
+//   event_*_ms      from the close of a sweep's last chunk to the sweep's event at the client
+//   bzip2_p50_ms    median of the times that bunzip alone takes for the last chunks of sweeps
+//   *_beyond_*      the same times, less the time of bunzip for each sweep's last chunk
 //   end_ms          from the last chunk of the volume to the grid of the whole volume, synced;
 //                   end_event_ms: to the event of that grid
 // --hour: Plays the heaviest national hour (bench/national_feed.h) as chunks at its own speed,
@@ -125,7 +126,7 @@ struct HeardEvent {
     std::string type, station, grid;  // grid: the time of the grid
 };
 
-// Many clients of /api/v1/events. One thread of this object reads them all.
+// Many clients of /api/v1/events. A thread of this object reads the events of all clients.
 class EventClients {
   public:
     // Opens a stream for each query ("station=KTLX"), one after another.
@@ -215,7 +216,7 @@ struct SentVolume {
     std::string station;
     UtcTime time;
 
-    // Returns the file for a piece, counted from 1.
+    // Returns the name of the file that receives the piece with this number, counted from 1.
     [[nodiscard]] fs::path file_of(std::size_t number, bool is_last, bool as_chunks) const {
         if (!as_chunks) return path.filename();
         level2::ChunkName name;
@@ -258,7 +259,7 @@ double bunzip_ms(std::span<const std::byte> piece) {
     return 1000 * least_s;
 }
 
-// The grid and the event that followed a piece.
+// The times of the grid and of the event that followed a piece.
 struct Told {
     std::optional<double> grid_ms, event_ms;
     bool is_complete = false;

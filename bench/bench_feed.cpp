@@ -8,7 +8,7 @@
 // and 32 levels. The chunks that every site has already sent of its current volume exist from the
 // start. There is a row for each speed:
 //   speed          the requested speed
-//   sustained_x    heaviest hours of data processed in an hour (bench/feed_run.h); with --sites, of
+//   sustained_x    hours of such data processed in an hour (bench/feed_run.h); with --sites, of
 //                  these sites
 //   raw_mb_per_s   10^6 bytes of messages a second of wall time
 //   latency_*      from the last chunk to the grid
@@ -18,7 +18,7 @@
 //                  files), and at most anonymous_mib is the daemon's own
 //   daemon_cores, feeder_cores  CPU time divided by wall time
 //   volumes        volumes whose last chunk was sent
-//   ungridded      volumes of these without a grid at the end
+//   ungridded      of these volumes, those without a grid at the end
 //   held           share of the time during which the feed was paused
 //   cache_mib      the largest size of the cache
 // --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
@@ -58,7 +58,7 @@ constexpr const char* daemon_configuration =
     "[cache]\nbytes = \"2 GiB\"\n[ingest]\nspacing_km = 1.0\nextent_km = [460, 460]\n"
     "levels_km = \"0.5:16:0.5\"\n[log]\nlevel = \"warning\"\n";
 
-// CPU seconds of bunzip alone for a byte of the feed.
+// Measures the CPU time of bunzip alone for the bytes of the feed.
 class BzipCost {
   public:
     explicit BzipCost(const NationalFeed& feed) {

@@ -1,4 +1,4 @@
-// bench_kernels: compares the times of different ways to decompress, decode and place columns.
+// bench_kernels: compares ways to decompress and decode volumes, and to place columns.
 //
 // usage: bench_kernels [--data DIR] [--threads N] [--runs N] [--json] [--benchmark_filter=REGEX]
 //        [FILE ...]   (bench/request.h; every real volume, unless files are named)

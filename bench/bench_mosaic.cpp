@@ -1,4 +1,4 @@
-// bench_mosaic: turns raw files of five hours of 1 to 100 radars into merged volumes for rendering.
+// bench_mosaic: times the way from raw files of 1 to 100 radars to merged volumes.
 //
 // usage: bench_mosaic [--data DIR] [--work DIR] [--threads N] [--runs N] [--full]
 //        [--sites | --us | --only SITES] [--hours H] [--alone] [--cache DIR]
@@ -22,7 +22,7 @@
 //   paper_min  the paper's minutes for 100 sites: 46.87 in sequence (shown for one thread), 8.92 on
 //              its pool of 512 nodes (shown for several threads)
 // --only SITES runs one number of sites. --hours H uses the first H of the five hours. --alone
-// leaves out libbz2, so that libbz2_s and ratio have no value; it runs every row. Otherwise,
+// leaves out libbz2, so that libbz2_s and ratio have no value, and runs every row. Otherwise,
 // without --full, a row is run only if it should end within 9 minutes by the times of earlier rows.
 //
 // Then the rows of the United States at 0.01 degrees follow (bench/nation.h), with the least times

@@ -1,5 +1,4 @@
-// bench_plan: compares the time and the error that the planner predicts for a grid with
-// measurements.
+// bench_plan: measures how well the planner predicts the time and the error of a grid.
 //
 // usage: bench_plan [--data DIR] [--threads N] [--runs N] [--times | --errors] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)

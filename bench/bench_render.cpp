@@ -1,8 +1,8 @@
-// bench_render: measures frames a second as in the paper's table, and the accuracy of each row.
+// bench_render: measures frames a second as in the paper of 2008, and the accuracy of each row.
 //
 // usage: bench_render [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
 // The five volumes of sequence-kbgm are gridded over 300 x 300 x 11.5 km in three sizes and drawn
-// at 796 x 532 from 20 degrees off the vertical, each frame a new time step from its file. There is
+// at 796 x 532 from 20 degrees off the vertical. Each frame opens the next volume's file. There is
 // a row for each size, number of slices, method (render/volume/transfer_function.h; "smooth":
 // pre-integrated, and interpolated between rays within 2 of 255 levels) and number of threads:
 //   volume    columns x rows x levels

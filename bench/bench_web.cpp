@@ -4,7 +4,7 @@
 // usage: bench_web [--data DIR] [--seconds N] [--clients "1 64"] [--json]
 //        [--tiles [--requests 20] [--cache DIR]] [FILE ...]      (bench/request.h)
 // `stormcellar serve` with the files (by default one busy volume) and nginx take turns on one
-// processor, while wrk runs on another. Each row takes --seconds (5). There is a row for each kind
+// processor, while wrk runs on another. A row takes --seconds N (5). There is a row for each kind
 // of request and number of clients:
 //   what            kind of request, and server
 //   clients         open connections
@@ -19,9 +19,9 @@
 // In "first" rows one client makes one request of each kind; p50_ms is the median of their times,
 // p99_ms the longest.
 //
-// --tiles: instead, one client requests --requests tiles about the middle, one by one, from
-// `stormcellar serve` with a file, and then with the cache DIR of the domain US (bench_mosaic --us
-// --cache):
+// --tiles: instead, one client requests tiles one by one, --requests of each zoom, from the center
+// of the domain outward. It requests them from `stormcellar serve` with a file, and then with the
+// cache DIR of the domain US (bench_mosaic --us --cache):
 //   what        domain, layer and zoom
 //   first_ms    the layer's first tile, which makes the product and its overviews
 //   new_p50_ms, new_max_ms    tiles that were not requested before
@@ -191,7 +191,7 @@ struct TilePlace {
     std::vector<int> zooms;
 };
 
-// Returns the tiles of a zoom, nearest to the tile of the place first.
+// Returns `count` tiles of a zoom level, from the tile of the place outward.
 std::vector<std::string> tiles_about(const TilePlace& place, std::string_view layer, int zoom,
                                      std::size_t count) {
     const double tiles = std::exp2(zoom);

@@ -12,12 +12,12 @@ in bench_dealias, one after the other.
    Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also prints which
    share of the wrong and of the right gates is marked ambiguous.
 2. Edges that are left (--edges): pairs of adjacent gates that still differ by more than the Nyquist
-   velocity, at the real Nyquist velocity, and the seconds.
-"""
-import argparse
-import json
-import os
-import pathlib
+1. Folded again (--cases): the true velocities are those of the gates on which recast's methods
+`pyart` and `volume` agree at the real Nyquist velocity. They are folded again at 20, 16, 12 and
+8.5 m/s. Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also
+prints which share of the wrong and of the right gates is marked ambiguous.
+2. Edges that are left (--edges): counts the pairs of adjacent gates that, dealiased at the real
+Nyquist velocity, still differ by more than it. Prints the counts and the seconds.
 import subprocess
 import sys
 import tempfile

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double longest_wait_s = 0.05;
-// A file written a moment ago appears in the status a second later.
+// The status may show a new file a second late, so the daemon counts as idle only after this time.
 constexpr double idle_s = 1.5;
 constexpr std::chrono::milliseconds between_looks{500};
 

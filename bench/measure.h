@@ -80,8 +80,8 @@ struct ProgramRun {
 // Returns the peak memory of this process in KiB, as the kernel counts it (proc(5)).
 [[nodiscard]] long high_water_kib();
 
-// Returns the quantile of a share, such as 0.95, by nearest rank, of values in any order; NaN if
-// there are none.
+// Returns a quantile of the values by nearest rank, such as the 95th percentile for a `share` of
+// 0.95. The values may be in any order. NaN if there are none.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 // Returns the whole number at the start of a text, after spaces; -1 if there is none.

@@ -76,7 +76,7 @@ class Runner {
 void Runner::decompress_alone(std::span<const FeedVolume> volumes) const {
     for_each_piece(static_cast<int>(volumes.size()), threads_, [&](int piece) {
         const auto bytes = read_file(volumes[static_cast<std::size_t>(piece)].file);
-        if (!bytes) return;  // the run reports that error
+        if (!bytes) return;  // make_partial() reports this error
         Bytes peeled;
         decompress_all(ldm_records(*bytes, peeled));
     });
@@ -170,7 +170,8 @@ Status Runner::run(std::span<const FeedVolume> volumes, UtcTime until) {
         const double volumes_s = seconds_of([&] { status = make_partials(here); });
         if (!status) return status;
         const bool is_last = end + stretch > until;
-        // Make the frames before this time, because all of their volumes are there.
+        // Make the frames before this time, because no later file can bring a volume that they
+        // need.
         const UtcTime ready = is_last ? until + minutes{1} : end - longest_wait;
         const double frames_s = seconds_of([&] {
             status = make_frames(next_frame, ready);

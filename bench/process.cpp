@@ -30,7 +30,7 @@ constexpr int steps_to_start = 3000;
 [[noreturn]] void become(const std::vector<char*>& words, const char* output, const char* errors,
                          const cpu_set_t* processors, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // If the parent ended before this call, no signal comes.
+    // The signal comes only if the parent ends after the call of prctl().
     if (::getppid() != parent) ::_exit(127);
     if (processors) ::sched_setaffinity(0, sizeof *processors, processors);
     const int out = ::open(output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

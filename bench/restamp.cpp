@@ -68,8 +68,8 @@ bool is_legacy(const level2::Volume& volume) {
     return !volume.sweeps.empty() && volume.sweeps.front().message_type == 1;
 }
 
-// Sets the position. The altitude of the feed horn is the sum of both heights. These must differ,
-// because a reader does not add equal heights, as a TDWR sends them.
+// Sets the position. The altitude of the feed horn is the sum of both heights. They must differ,
+// because a reader takes two equal heights for one height that a TDWR sends twice.
 void move_to(const Station& station, level2::VolumeBlock& block) {
     constexpr int tower_m = 20;
     const auto altitude_m = static_cast<int>(std::lround(station.antenna_altitude_m));

@@ -25,10 +25,10 @@ void move_times(level2::Volume& volume, std::chrono::milliseconds by);
 // block of message 31. Message 1 has no position; its reader uses the station table.
 void restamp(level2::Volume& volume, const Station& station, UtcTime start);
 
-// A file of LDM records that is re-stamped like a volume in restamp(), but in the bytes of its
-// messages. So the records keep the RDA's divisions, and the contents that a Volume does not hold.
-// Station, both times and position of messages 31 are changed, and the records are compressed
-// again. All other messages stay the same.
+// A file of LDM records that is re-stamped like a volume in restamp(), but byte by byte. So the
+// messages keep the order and the contents that the RDA gave them, also those that a Volume does
+// not hold. Only station, times and position in messages 31 change; then the records are compressed
+// again.
 class StampedRecords {
   public:
     // Errors: not_level2 for anything but a header and whole LDM records after it; corrupt for a

@@ -257,8 +257,8 @@ TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     EXPECT_EQ(run(plan, 3).error().code, ErrorCode::io);
 }
 
-// 2026-11-29: grids of the next day's first two hours counted as replacements for lost grids of a
-// day.
+// 2026-11-29: if a day's grids were lost, grids of the next day's first two hours were counted in
+// their place.
 TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));
@@ -276,8 +276,8 @@ TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     expect_unreadable(run(plan, 1), "has 2 of the 3 grids that task 0 made");
 }
 
-// An additional grid of the same day from another plan does no harm. In place of the plan's own
-// grid, it is an error.
+// A grid that another plan made for this day does no harm beside our grids. In place of one of our
+// grids, it is an error.
 TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));
@@ -388,7 +388,8 @@ TEST_F(BatchTasks, FilesOfABucketAreFetchedGriddedAndRemoved) {
     EXPECT_EQ(tree_of(directory_ / "one"), tree_of(directory_ / "two"));
 }
 
-// The counts of an hour of a month cover exactly the frames of this hour, in any order of counting.
+// A task of statistics counts exactly the frames of its month and hour of the day. The order in
+// which tasks run does not matter.
 TEST_F(BatchTasks, StatisticsCountTheFramesOfAMonthsHour) {
     Recipe counted = recipe("one");
     counted.statistics = grid::Tallied::columns_and_cells;

@@ -1,4 +1,4 @@
-// Tests the options of every benchmark, and its rows as a table and as JSON.
+// Tests the options of every benchmark, and the rows that it prints as a table and as JSON.
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -139,7 +139,7 @@ TEST(BenchKernels, RowsAreRatiosToLibbz2) {
     EXPECT_EQ(run_program(bench("bench_kernels"), {"--benchmark_fliter=x", file}).status, 2);
 }
 
-// The benchmark makes an hour of one site by tasks, and in one process from the same files.
+// The benchmark makes the frames of one site and one hour twice: by tasks, and in one process.
 TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--batch", "condor"}).status, 2);

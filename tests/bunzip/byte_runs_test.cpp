@@ -12,7 +12,7 @@ namespace {
 
 using Symbols = std::vector<std::uint16_t>;
 
-// Makes the last column byte by byte, as the format describes it.
+// Writes the last column of the sorted rotations byte by byte, as the format describes it.
 std::vector<std::uint8_t> slowly(const Symbols& symbols, std::vector<std::uint8_t> list) {
     std::vector<std::uint8_t> column;
     std::size_t unit = 1;

@@ -278,7 +278,7 @@ Bytes stream_from(std::span<const std::byte> input) {
         return stream;
     }
     const int level = 1 + static_cast<int>(choices.byte() % 9);
-    // Make up to three changes at places that the bytes decide.
+    // Make up to three changes at places that `choices` determines.
     std::map<unsigned, std::byte> changes;
     if (kind == 2) {
         for (unsigned i = choices.byte() % 4; i > 0; --i)

@@ -55,7 +55,7 @@ TEST_P(GridFileTest, RoundTripKeepsEveryCellAndEveryFact) {
     EXPECT_TRUE(about.provenance.partial);
     EXPECT_EQ(about.provenance.audit, grid.provenance.audit);
 }
-// The header of a file says which moment it has, and so whether code 3 is ambiguous.
+// The header of a file names the moment, and only derived moments use code 3, for ambiguous cells.
 TEST_P(GridFileTest, RoundTripKeepsAmbiguousCells) {
     const grid::Grid grid = testing::ambiguous_grid();
     const grid::Quantization quantization{GetParam(), -32, 0.5F, true};

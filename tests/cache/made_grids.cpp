@@ -8,7 +8,7 @@
 namespace stormcellar::testing {
 namespace {
 
-// Returns a grid around KBGM with everything but values: no cell is seen.
+// Returns a grid around KBGM in which no cell is seen.
 grid::Grid blank_grid(int nx, int ny, int levels) {
     grid::Grid made;
     made.spec.center_latitude_deg = 42.2;

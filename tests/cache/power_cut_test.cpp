@@ -32,7 +32,7 @@ struct Promises {
     std::optional<fs::path> pinned;
 };
 
-// Commits grids of two days beyond the budget, replaces a grid, pins one, and rolls.
+// Commits more grids of two days than the budget holds, replaces a grid, pins one, and rolls.
 void live(FileSystem& disk, const fs::path& cache, Promises& promised) {
     auto store = RollingStore::open(disk, cache, budgets());
     if (!store) return;

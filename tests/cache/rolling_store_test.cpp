@@ -39,7 +39,8 @@ class RollingStoreTest : public ::testing::Test {
         EXPECT_TRUE(store) << store.error().message;
         return std::move(*store);
     }
-    // Returns a budget for `grids` grids of the usual size and the surplus of a reservation.
+    // Returns a budget that holds `grids` grids of the usual size, and what a reservation takes in
+    // excess of its file.
     [[nodiscard]] std::uint64_t room_for(int grids) const {
         return static_cast<std::uint64_t>(grids) * grid_bytes_ + 8 * 4096;
     }
@@ -85,7 +86,7 @@ TEST_F(RollingStoreTest, ACommitTakesTheRoomThatItNeedsAndARollTheRestDownToTheL
     EXPECT_LE(disk_.most(), *budgets_.total.bytes);
 }
 
-// A watchdog needs the calls of `step`.
+// A roll calls `step` again and again, so that a watchdog does not take it for hung.
 TEST_F(RollingStoreTest, ARollSaysThatItMovesOn) {
     budgets_.total.bytes = room_for(10);
     budgets_.low_watermark = 0.5;

@@ -26,7 +26,7 @@ enum class Kept { nothing, everything, some };  // how much of the unsynced data
 
 class PowerCutVfs {
   public:
-    PowerCutVfs();  // becomes the default of this process
+    PowerCutVfs();  // makes this VFS the default in this process
     PowerCutVfs(const PowerCutVfs&) = delete;
     PowerCutVfs& operator=(const PowerCutVfs&) = delete;
     ~PowerCutVfs();

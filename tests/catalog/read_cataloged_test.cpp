@@ -1,4 +1,4 @@
-// Tests that a raw file is read again only if it is the cataloged one.
+// Tests that a raw file is read again only if it is still the file that was cataloged.
 #include "stormcellar/catalog/read_cataloged.h"
 
 #include <fstream>

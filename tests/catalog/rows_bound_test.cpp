@@ -1,4 +1,5 @@
-// Tests the limits of rows: rows of files that are gone make room; otherwise new rows are left out.
+// Tests the size limits of databases. Rows of deleted files are removed to make room; if there are
+// none, new rows are left out.
 #include <gtest/gtest.h>
 
 #include "tests/catalog/catalog_fixture.h"

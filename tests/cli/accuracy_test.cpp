@@ -182,8 +182,8 @@ peak_dbz = 50
     }
 }
 
-// The rungs from `profile` on must each make fewer errors than the rung below, down to the lowest
-// Nyquist velocity; at the real one, dealiasing must remove jumps.
+// With velocities folded at 12 m/s, each higher rung of dealiasing must get fewer gates wrong. At
+// the real Nyquist velocity, dealiasing must remove jumps.
 TEST(Accuracy, PrintsALadderOfDealiasing) {
     STORMCELLAR_NEED_DATA();
     const testing::TemporaryDirectory directory;

@@ -137,8 +137,8 @@ TEST_F(Follow, NothingIsMadeWithoutAChangeOfItsGrids) {
     ASSERT_TRUE(wait_for_remakes(program, 1)) << program.err();
     std::ofstream(grid.native() + ".pin") << "";
     commit("20050822_024000", 11);  // not among the last two
-    // The program lists the grids after some seven checks without a change, and goes on checking,
-    // whether or not it has made a loop.
+    // The program lists the grids after some seven checks without a change, and goes on checking.
+    // So 20 checks show that the listing started no second loop.
     EXPECT_TRUE(Openings(grid.parent_path().parent_path()).come_to(20));
     EXPECT_EQ(documents(program).size(), 1U) << program.out();
     EXPECT_EQ(program.end(SIGTERM), 0);

@@ -87,7 +87,8 @@ TEST_F(Ppi, TheStormRelativeVelocityLosesTheMotionOfTheStorm) {
                          "35.25,-97.60"};
     const auto at_rest = probe(with(place, {"--storm-motion", "0/0"})).at("probe");
     const auto from_west = probe(with(place, {"--storm-motion", "270/10"})).at("probe");
-    // The radar is in the east, so the storm comes nearer, and the air seems to move away more.
+    // The place is west of the radar, and the storm comes from the west, toward the radar. Relative
+    // to the storm, the air therefore seems to recede faster.
     const double azimuth = at_rest.at("gate").at("azimuth_deg");
     EXPECT_NEAR(azimuth, 252.9, 0.1);
     EXPECT_NEAR(from_west.at("value").get<double>() - at_rest.at("value").get<double>(),

@@ -1,4 +1,4 @@
-// Runs `stormcellar view` as a user does: files in, an address out, Ctrl-C.
+// Runs `stormcellar view` as a user does, with files, and ends it with Ctrl-C.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>

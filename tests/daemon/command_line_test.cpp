@@ -1,4 +1,4 @@
-// stormcellard answers wrong arguments and configurations clearly.
+// Tests that stormcellard reports wrong arguments and wrong configurations clearly.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// Runs the real program on real files. Files that arrive in any way must end up in the catalog and
+// Runs the real program on real files. However a file arrives, it must end up in the catalog and
 // the cache.
 #include <algorithm>
 #include <csignal>

@@ -61,7 +61,7 @@ class FakeSink final : public Sink {
         if (rolls) rolls(step);
         return {};
     }
-    // Further actions of mark_missing() and roll_cache(). Set them before the sink is used.
+    // Called by mark_missing() and roll_cache(). Set them before the sink is used.
     std::function<void(const OnStep&)> looks, rolls;
     [[nodiscard]] int missing_looks() const { return missing_looks_; }
 

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 constexpr FileStamp small{1, 100, 5};
 constexpr FileStamp large{1, 200, 6};
 
-// A fake disk that has only stamps, and a clock that advances a second at a time.
+// A fake disk that knows only sizes and times of files, and a clock that advances by seconds.
 class Growing : public ::testing::Test {
   protected:
     // Advances to t0 + `second` and returns the files that are due: "a", or "a!" if finish_as_is is

@@ -18,8 +18,8 @@
 
 namespace stormcellar::daemon {
 
-// The largest memory of the program with two workers. A volume of a real radar takes a fifth of
-// this.
+// The memory that the program may take with two workers. A volume of a real radar takes a fifth of
+// it.
 inline constexpr long most_mib = 1024;
 // Limit of waits that take some seconds on an idle machine.
 inline constexpr double most_seconds = 60.0 * testing::slow_down;

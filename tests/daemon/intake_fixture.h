@@ -58,7 +58,7 @@ class IntakeTest : public ::testing::Test {
             EXPECT_EQ(next(), name);
         }
     }
-    // Returns the outcome of a chunk that represents its volume instead of the chunk `former`.
+    // Returns the outcome of a chunk that represents its volume in place of the chunk `former`.
     [[nodiscard]] pipeline::IngestOutcome incomplete_after(const char* former) const {
         pipeline::IngestOutcome outcome = outcome_of(pipeline::IngestResult::incomplete);
         outcome.former_representative = at(former);

@@ -1,4 +1,4 @@
-// The daemon must link only the libraries that ingest needs: no renderer, no video, no netCDF.
+// Tests that the daemon links only the libraries that ingest needs: no renderer, video or netCDF.
 #include <sstream>
 #include <string>
 #include <vector>

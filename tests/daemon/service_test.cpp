@@ -365,9 +365,8 @@ std::ptrdiff_t meals(const FakeNotifier& notifier) {
     return std::count(sent.begin(), sent.end(), "WATCHDOG=1");
 }
 
-// One of the service's own threads hangs until the test releases it: the service must stop feeding
-// the watchdog. If a thread takes as long but makes steps, the service must go on feeding the
-// watchdog.
+// One of the service's own threads hangs until the test releases it. Meanwhile the service must not
+// feed the watchdog. It must feed the watchdog if a thread is slow but makes steps.
 class HangingThread : public ServiceTest, public ::testing::WithParamInterface<const char*> {
   protected:
     std::atomic<bool> hangs_{true};

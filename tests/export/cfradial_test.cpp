@@ -59,7 +59,7 @@ TEST_F(Cfradial, EveryGateKeepsItsCodeAndWhyItHasNoValue) {
 }
 
 // Checks the accuracy that stormcellar/export/cfradial.h states, with the scales of real volumes.
-// VELD is a field beside VEL, whose codes and states stay as they are without it.
+// VELD comes beside VEL and must not change the codes and states of VEL.
 TEST_F(Cfradial, DealiasedVelocityStandsBesideTheRawVelocity) {
     const SweepMoment raw = small_moment(Moment::vel, {{0, 1, 2, 129, 254}});
     write(one_moment(raw));

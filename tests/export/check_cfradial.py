@@ -62,7 +62,7 @@ def fields_of(data, moment):
 
 
 def placement(data, name, sweep):
-    """Returns the element where a sweep begins, and how many elements each gate fills."""
+    """Returns the index of a sweep's first element, and how many elements each gate fills."""
     if name + "_gate_repeats" not in data.variables:
         return 0, 1
     return int(data[name + "_gate_start"][sweep]), int(data[name + "_gate_repeats"][sweep])

@@ -1,8 +1,8 @@
 """Compares the counts and weights of a mosaic, as a user reads them, with each site alone.
 
 Usage: check_mosaic.py PROGRAM LEVEL2_FILE LEVEL2_FILE...
-Grids all files together with PROGRAM, and each file alone on the same columns. Counts the sites
-that see a cell from the single grids, and computes the weights from distances by Vincenty's inverse
+Grids all files together with PROGRAM, and each file alone on the same columns. The grids of single
+files show how many sites see a cell. Weights are computed from distances by Vincenty's inverse
 (check_grid.py).
 """
 import json

@@ -58,8 +58,8 @@ struct Tried {
 
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
-    // Delivers a volume in each way and a file that is no volume: two before the start, the others
-    // after it.
+    // Delivers a volume in each way, and a file that is no volume. Two of these deliveries come
+    // before the start, the others after it.
     static Tried run(std::uint64_t at);
 };
 
@@ -123,8 +123,8 @@ Tried FailingCalls::run(std::uint64_t at) {
     return tried;
 }
 
-// $STORMCELLAR_FAILING_TRIES sets how many of all calls fail, each in a run of its own, spread
-// evenly.
+// Makes $STORMCELLAR_FAILING_TRIES runs. In each run another call fails; these calls are spread
+// evenly over all calls.
 TEST_P(FailingCalls, NothingIsLost) {
     if (is_sanitized) GTEST_SKIP() << "no other library may be loaded before the sanitizer's";
     const std::uint64_t calls = run(UINT64_MAX).calls;
