@@ -4,7 +4,7 @@
 // scale and offset, and may lack an end. This code does not use stormcellar/level2/encode.h, which
 // refuses to write most of these files.
 //
-// Threads   Pure: may be called from any thread.
+// Threads   Functions without state; call them from any thread.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ struct Claims {
 [[nodiscard]] Bytes endless_bytes(Claims claims, unsigned radials = 1250, unsigned gates = 20'000);
 // Returns the control word of a record of `bytes` bytes, and the start of its stream.
 [[nodiscard]] Bytes begun_record(std::uint32_t bytes);
-// Returns a volume that can be read in full but whose cells are no finite numbers.
+// Returns a volume that can be read in full but whose values in a grid are not finite.
 [[nodiscard]] Bytes overflowing_bytes(Claims claims);
 
 }  // namespace stormcellar::fault

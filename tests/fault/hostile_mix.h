@@ -1,4 +1,5 @@
-// tests/fault/hostile_mix.h -- a malicious writer: every kind of attack at once, chosen by a seed.
+// tests/fault/hostile_mix.h -- a malicious writer that mixes attacks of every kind. A seed decides
+// the mixture.
 //
 // The attacker writes into a drop directory at a given rate, beside honest writers, below its own
 // directories and below the directories of stations. Its files claim invented or known stations,

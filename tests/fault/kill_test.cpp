@@ -23,7 +23,8 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Returns true if a write has begun in the cache. The start removes the leftovers of earlier kills.
+// Returns true if the cache has a temporary file. The daemon's start removed the files of earlier
+// kills, so this file is of a write that the last kill interrupted.
 bool is_in_a_write(const std::filesystem::path& cache) {
     if (!std::filesystem::exists(cache)) return false;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(cache))

@@ -38,7 +38,8 @@ class MockBucket {
     // Sets the faults of the next answers for this key (or for listings of this prefix).
     void fail_next(const std::string& key, std::vector<Fault> faults);
     void set_page(std::size_t keys) { page_ = keys; }
-    // Return how often `key` was requested, and the first byte of the last request for it.
+    // asked() returns how often `key` was requested. last_from() returns the first byte that the
+    // last request for the key asked for.
     [[nodiscard]] std::size_t asked(const std::string& key) const;
     [[nodiscard]] std::size_t last_from(const std::string& key) const;
     [[nodiscard]] std::size_t most_at_once() const { return server_.most_at_once(); }

@@ -101,8 +101,8 @@ TEST(Audit, AGridShiftedByACellShowsIt) {
     EXPECT_NEAR(row.mean, -0.1, 0.01) << "0.1 dB per kilometer to the east";
 }
 
-// At 100 km, half a degree is 0.87 km. The turn shows most where the field changes around the
-// radar.
+// At 100 km, half a degree is 0.87 km. A turned volume errs most where the field changes with
+// azimuth.
 TEST(Audit, AVolumeTurnedByHalfADegreeShowsItAndMoreWithRange) {
     const BrickGrid grid = grid_of_field(small_spec());
     const level2::Volume straight = observed();
@@ -197,9 +197,9 @@ TEST(Audit, WhatItCannotDoIsAnError) {
               ErrorCode::not_found);
 }
 
-// Audits real volumes gridded with the defaults. Near the radar, where most gates are and echo
-// changes most between gates and cells, the method `nearest` is worse. Far away, `nearest` repeats
-// gates and is better.
+// Audits real volumes gridded with the defaults. The method `nearest` has larger errors near the
+// radar, where most gates are and echo changes most between gates and cells. Far away it has
+// smaller errors, because it repeats the gates.
 struct Real {
     level2::Volume volume;
     SitePosition site;

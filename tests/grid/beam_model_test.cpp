@@ -93,8 +93,8 @@ TEST(BeamModel, NamesSayWhatWasUsed) {
 }
 
 // Uses known figures: the height of a gate on the 4/3 earth minus its height on a ray in the
-// exponential reference atmosphere, at the same geometric range, over a sphere of 6371 km (at 35 N
-// it is 6370.8 km), with the antenna at sea level.
+// exponential reference atmosphere. Both have the same geometric range and an antenna at sea level,
+// over a sphere of 6371 km (the radius at 35 N is 6370.8 km).
 TEST(BeamModel, FourThirdsIsAsFarOffATracedRayAsIsKnown) {
     const BeamModel closed = BeamModel::four_thirds(35, 0);
     const BeamModel traced = BeamModel::traced(35, 0, exponential(), RangeKind::geometric);
@@ -183,8 +183,8 @@ TEST(BeamModel, DifferenceOfAModelFromItselfIsNothing) {
     EXPECT_EQ(none.gate_m, 0);
 }
 
-// greatest_difference() compares points 500 m apart. Between them, the test compares every 10 m;
-// the result may be exceeded only by the stated limit.
+// greatest_difference() compares points 500 m apart. This test compares points 10 m apart, whose
+// differences may exceed the result by at most the stated limit.
 TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
     const std::vector<RefractivityLevel> levels = {{0, 330},    {300, 300},  {350, 294},
                                                    {1500, 250}, {6000, 140}, {12e3, 60}};

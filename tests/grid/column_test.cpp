@@ -1,4 +1,4 @@
-// Tests one column from one sample of each sweep (grid/fill/column.h).
+// Tests how a column is filled from one sample of each sweep (grid/fill/column.h).
 #include "grid/fill/column.h"
 
 #include <cmath>

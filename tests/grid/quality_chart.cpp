@@ -112,7 +112,7 @@ class Places {
     grid::SiteFrame frame_;
 };
 
-// Sums of Z over places, times powers of their distances.
+// Sums of Z over cells, of Z times a distance from the feature, and of Z times its square.
 struct Moments {
     double sum = 0;
     std::array<double, 3> first{}, second{};  // along, across, up; km
@@ -263,7 +263,8 @@ PointChart point_chart(const Observed& given, const grid::Method& method) {
 }
 
 EdgeChart edge_chart(const Observed& given, const grid::Method& method) {
-    // The plateau's share of Z by distance from the edge, in bins of 125 m.
+    // Finds, for each distance from the edge, how large Z is on average as a share of the plateau's
+    // Z. Bins are 125 m wide.
     constexpr double reach_m = 8000;
     constexpr double bin_m = 125;
     constexpr auto bins = static_cast<std::size_t>(2 * reach_m / bin_m);

@@ -46,8 +46,9 @@ struct PointChart {
 };
 [[nodiscard]] PointChart point_chart(const Observed& observed, const grid::Method& method);
 
-// The chart of the near side of the plateau, in Z: the distance from 10 % to 90 %, and how far 50 %
-// is beyond its true place.
+// The chart of the plateau's near side, across which the mean Z rises to the plateau's Z. The rise
+// is the distance from 10 % to 90 % of it. The shift says how far beyond the true edge it reaches
+// 50 %.
 struct EdgeChart {
     double rise_km = 0;
     double shift_km = 0;

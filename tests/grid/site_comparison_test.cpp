@@ -1,4 +1,5 @@
-// Tests that each fault is found: two radars see the same simulated weather, and one has a fault.
+// Two radars see the same simulated weather, and one of them has a fault. Tests that the fault is
+// found.
 #include "grid/judge/site_comparison.h"
 
 #include <chrono>

@@ -107,7 +107,7 @@ TEST(GridAt, NearestIsTheNearerVolumeUntouched) {
     const std::vector<float> before = to_dense(pair.before.view()).values;
     EXPECT_EQ(values_at(149), before);
     EXPECT_EQ(values_at(151), to_dense(pair.after.view()).values);
-    EXPECT_EQ(values_at(150), before) << "of two equally near, the earlier";
+    EXPECT_EQ(values_at(150), before) << "the earlier of two equally near volumes";
 }
 
 TEST(GridAt, BlendAtEitherEndIsThatVolume) {

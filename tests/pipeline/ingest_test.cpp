@@ -110,8 +110,8 @@ TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
               std::vector<std::string>{});
 }
 
-// The grid of VELD has the cells that the gridder makes of the dealiased volume. The grids of the
-// other moments are those without VELD.
+// The grid of VELD has the cells that the gridder makes of the dealiased volume. The other moments
+// have the same grids as without VELD.
 TEST_F(IngestTest, TheDealiasedVelocityIsAGridOfItsOwn) {
     STORMCELLAR_NEED_DATA();
     const fs::path path = testing::real_file("volumes/KTLX19990503_235621.gz");
@@ -202,7 +202,7 @@ TEST_F(IngestTest, AVolumeThatTheCacheWouldNotKeepIsRegisteredAndNotGridded) {
               IngestResult::unchanged);
 }
 
-// The golden file says that this file has four volumes.
+// An independent decoder found four volumes in this file (golden file).
 TEST_F(IngestTest, FileOfSeveralVolumesGivesAGridForEach) {
     STORMCELLAR_NEED_DATA();
     const auto outcome =

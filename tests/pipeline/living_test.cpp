@@ -100,8 +100,8 @@ TEST_F(Living, RecordsInTheWrongOrderGiveTheGridsOfTheRightOrder) {
     EXPECT_TRUE(rows->at(0).volume.complete);
 }
 
-// At every record of two volumes, each moment's grids equal the grids of a House that grids only
-// this moment, even while old sweeps stand in for some moments.
+// Ingests two volumes record by record. After each record, the grids of each moment must equal the
+// grids of a House that grids only this moment, even while old sweeps stand in for some moments.
 TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
     using level2::Moment;
     const std::vector<Moment> moments = {Moment::ref, Moment::vel, Moment::rho, Moment::veld};
@@ -177,8 +177,8 @@ TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     EXPECT_TRUE(made.provenance.partial);
     ASSERT_EQ(made.provenance.notes.size(), 1U);
     EXPECT_TRUE(made.provenance.notes[0].starts_with("living: ")) << made.provenance.notes[0];
-    // The grid has each elevation once: the low ones from the new volume, and the high ones from
-    // the last.
+    // The grid has each elevation once: low elevations from the new volume, high ones from the
+    // volume before.
     const UtcTime second_start = second.header->time();
     std::size_t fresh = 0;
     for (std::size_t i = 0; i < made.provenance.sweeps.size(); ++i) {
@@ -230,12 +230,12 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     const auto outcomes = grow(house, path, bytes, 40);
     const auto shown = [](const IngestOutcome& outcome) { return !outcome.living.empty(); };
     const auto left_out = [](const IngestOutcome& outcome) { return outcome.living_left_out; };
-    // The volume's cuts are 0.5 degrees twice, higher ones, and 0.5 degrees again in between
+    // The volume has two cuts at 0.5 degrees, then higher cuts, and 0.5 degrees again among them
     // (SAILS).
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), shown), 0);
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
     ASSERT_TRUE(outcomes.back().living_left_out)
-        << "the last sweep is a high one, for which there is no time";
+        << "a high last sweep is left out without time";
     EXPECT_TRUE(outcomes.back().living.empty());
     has_time = true;
     append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));

@@ -40,7 +40,7 @@ TEST(PalFile, BlendsAsTheFormatSays) {
     EXPECT_FALSE(is_stepped(*table));
     EXPECT_FALSE(color_of(*table, 4.9F));
     EXPECT_EQ(color_of(*table, 5), (Rgba8{0, 0, 100, 255}));
-    EXPECT_EQ(color_of(*table, 10), (Rgba8{50, 100, 75, 255})) << "half way to the second";
+    EXPECT_EQ(color_of(*table, 10), (Rgba8{50, 100, 75, 255})) << "half way to the second entry";
     EXPECT_EQ(color_of(*table, 15), (Rgba8{10, 20, 30, 255}));
     EXPECT_EQ(color_of(*table, 20), (Rgba8{105, 60, 15, 255})) << "half way to the next entry";
     EXPECT_EQ(color_of(*table, 44.9F), (Rgba8{200, 100, 0, 255})) << "a solid color does not blend";

@@ -72,7 +72,7 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     EXPECT_FLOAT_EQ(at(250).values[0], 10) << "the first cell reaches half a level lower";
     EXPECT_FLOAT_EQ(at(625).values[0], 15);
     EXPECT_FLOAT_EQ(at(1000).values[0], 30);
-    // A value and no echo: the heavier state counts, and the value is unchanged.
+    // Between a value and no echo, the heavier state counts, and the value is unchanged.
     EXPECT_EQ(at(700).status[1], CellStatus::value);
     EXPECT_FLOAT_EQ(at(700).values[1], 40);
     EXPECT_EQ(at(750).status[1], CellStatus::value) << "equal weights: the value counts";
@@ -96,7 +96,8 @@ TEST(Cappi, MixesStatesByTheRule) {
         const CellStatus lower = columns[i][0].status;
         const CellStatus upper = columns[i][1].status;
         EXPECT_EQ(near_lower.status[i], lower) << i << ": two thirds of the weight";
-        // Half and half: "not seen" needs more than half, so the seen state counts.
+        // Both states have half of the weight. "Not seen" needs more than half, so the seen state
+        // counts.
         CellStatus wanted = lower;
         if (lower == CellStatus::not_seen) wanted = upper;
         if (lower != upper && lower != CellStatus::not_seen && upper != CellStatus::not_seen) {

@@ -61,7 +61,8 @@ TEST(ProductLegend, SaysWhatIsNotInTheColorBar) {
     EXPECT_THAT(legend_texts(scene_of(Product::lowest_seen, Moment::ref)), ElementsAre("not seen"));
 }
 
-// With haze, the ground does not tell how low it was seen, so the legend explains the air.
+// With haze, all seen ground has one shade, whatever its lowest beam, so the legend explains the
+// air.
 TEST(ProductLegend, OfAHazyVolumeIsOfTheAir) {
     using ::testing::ElementsAre;
     Scene scene = scene_of(Product::volume, Moment::ref);

@@ -35,8 +35,8 @@ class RealProducts : public ::testing::Test {
     std::optional<grid::BrickGrid> bricks_;
 };
 
-// Takes gates of echo at the height of a level and near the center of a column, placed by the beam
-// formula and not by the gridder: a CAPPI at their height must show them.
+// Takes gates of echo that are at the height of a level and near the center of a column. The beam
+// formula places them, not the gridder. A CAPPI at their height must show them.
 TEST_F(RealProducts, ACappiShowsTheGatesAtItsHeight) {
     const grid::BeamGeometry beam(real_.site.latitude_deg, real_.site.altitude_m);
     std::vector<std::optional<FlatField>> cappis(spec_.levels_m.size());

@@ -1,4 +1,4 @@
-// A check of the configuration must say as which user it ran.
+// Tests that a check of the configuration says as which user it ran.
 #include "service/arguments.h"
 
 #include <gmock/gmock.h>

@@ -115,9 +115,9 @@ TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
     }
 }
 
-// The radar looks north at a wide plateau that drifts east, so v = V sin(azimuth). So at azimuth
-// north the mean is 0. The deviation is V times the deviation of the azimuth pattern, turn
-// included.
+// The radar looks north at a wide plateau that drifts east with V, so v = V sin(azimuth). To the
+// north, the mean is therefore 0. The deviation is V times the deviation of the azimuth pattern,
+// which includes the turn of the antenna.
 TEST(BeamWidth, TheSpreadOfVelocityWidensTheSpectrum) {
     Observed observed;
     Box box;

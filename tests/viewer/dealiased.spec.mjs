@@ -4,7 +4,7 @@ import { expect, report, test as base } from './fixtures.mjs';
 
 const [width, height] = [900, 700];
 const middle = [width / 2, height / 2];
-const around = 2; // a chosen gate has the wanted content in so many gates and radials to each side
+const around = 2; // gates and radials to each side of a chosen gate that have the wanted content, too
 
 // Reads the azimuths and gates of a packed sweep (docs/web/packed-grid.md).
 function sweepOf(bytes) {

@@ -7,7 +7,7 @@ const told = (viewer) => viewer.byId('layers-told');
 const test = base.extend({
   viewport: { width: 700, height: 440 },
   sites: ({ server }, use) => use(server.stations),
-  // The region's domain, after a box over the first two sites.
+  // Draws a box over the first two sites, and gives the domain of this region.
   region: async ({ viewer, server, sites: [one, other] }, use) => {
     await server.grids();
     await viewer.goto();

@@ -1,5 +1,5 @@
-// Tests frames of a real volume: they have the bytes that the library draws, in each format and
-// with panels. Tests refusals, too.
+// Tests that frames of a real volume have the bytes that the library draws, in each format and with
+// panels. Tests refusals, too.
 #include "web/doors/pictures/frames.h"
 
 #include <cstring>

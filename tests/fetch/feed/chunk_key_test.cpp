@@ -1,4 +1,4 @@
-// Only keys of chunks may become paths.
+// Tests that only keys of chunks become paths.
 #include "fetch/feed/chunk_key.h"
 
 #include <algorithm>

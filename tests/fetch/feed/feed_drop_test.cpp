@@ -1,4 +1,4 @@
-// Chunks must appear whole under LDM's names, and within the limits.
+// Tests that chunks appear whole, under LDM's names, and within the limits of age and bytes.
 #include "fetch/feed/feed_drop.h"
 
 #include <fstream>

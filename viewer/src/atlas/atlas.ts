@@ -24,7 +24,8 @@ export function slotOf(entry: number): number {
 }
 
 // Finds for each column of bricks without a slot how many columns away the nearest column with a slot is, and writes
-// this distance into the column's words. It is 1 for a neighbor and at most 7. A ray skips all nearer columns at once.
+// this distance into the column's words. The distance is 1 for a neighbor, and at most 7. A ray skips all nearer
+// columns at once.
 export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
     const reach = new Uint8Array(bx * by).fill(mostReach);
     for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;
@@ -144,8 +145,8 @@ function greatestAbout(grid: PackedGrid, x: number, y: number, z: number): numbe
     return greatest;
 }
 
-// Returns the least code of a value in a brick; Infinity if the brick also has ambiguous cells, and its codes are not
-// here.
+// Returns the least code of a value in a brick; Infinity if the brick also has ambiguous cells and its codes are not
+// here, because the table does not tell the least value of such a brick.
 function leastOf(grid: PackedGrid, brick: number): number {
     if (grid.leastCode[brick]! >= grid.firstCode) return grid.leastCode[brick]!;
     if (grid.codes.length === 0) return Infinity;

@@ -12,8 +12,9 @@ export interface ResidentColumn {
     slots: Int32Array;
 }
 
-// A sample in a brick of level n uses cells at most 1.5 x 2^n cells of the grid away. So the bound over a brick of
-// level n - 3, which is 2 x 2^n cells wide, and its neighbors holds for all cells that the sample uses.
+// A sample in a brick that was halved n times uses cells at most 1.5 x 2^n cells of the grid away. A brick that was
+// halved n - 3 times is 2 x 2^n cells wide. So the bound over such a brick and its neighbors holds for all cells that
+// the sample uses.
 const finerBy = 3;
 
 // Fills `entries`, one for each brick of the grid, x fastest. `shownOf` has the shown code of each code.

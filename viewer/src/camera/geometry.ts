@@ -148,8 +148,8 @@ export class ViewGeometry {
         return [near, Math.max(far, near + nearest)];
     }
 
-    // Returns the least and the greatest depth of the visible part of the box. The depth at which rays meet a level
-    // plane is least and greatest in corners of the picture, so these are enough.
+    // Returns the least and the greatest depth of the visible part of the box. Over the picture, the depth at which
+    // rays meet a level plane is least and greatest in corners, so only the corners are examined.
     get shownDepths(): [number, number] {
         const corners: [number, number][] = [
             [0, 0],

@@ -4,7 +4,7 @@
 import { longestBridgeMs } from './between';
 
 // Returns a function that is true for the keys of outdated grids. `of` (DOMAIN/MOMENT) and `time` name the grid that
-// was made again. Outdated are
+// was made again. These grids are outdated:
 //   - the kept grid of this time;
 //   - frames between this time and its neighbors in `times`, which rise; if `times` is empty, frames within
 //     longestBridgeMs;

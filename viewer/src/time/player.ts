@@ -24,8 +24,8 @@ export function withTimes(player: PlayerState, times: string[], newest = times.l
     const { loop, follows } = player;
     const ofLoop = (all: string[]) =>
         loop && loop.from < loop.to ? all.filter((time) => time >= loop.from && time <= loop.to).length : 2;
-    // Drop a loop only after it had times. When the moment changes, its newest times come first, so a loop over older
-    // times has none for a while.
+    // Drop a loop only if it had times before. After a change of the moment, the newest times of the new moment come
+    // first, so a loop over older times has none for a while.
     const isOver = ofLoop(times) < 2 && ofLoop(player.times) >= 2;
     return {
         ...player,
