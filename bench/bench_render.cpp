@@ -85,8 +85,9 @@ class RenderScene {
     std::vector<std::filesystem::path> files_;
 };
 
-// Every `stride`-th pixel of the reference picture in both directions. The stride is odd, so that
-// the pixels that have a ray, and those that are interpolated between rays, count in proportion.
+// Every `stride`-th pixel of the reference picture in both directions. Some pixels have a ray, and
+// others are interpolated between rays. The stride is odd, so that both kinds of pixels count in
+// proportion.
 struct ReferencePixels {
     static constexpr int stride = 5;
     static constexpr int steps = 8192;

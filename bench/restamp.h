@@ -26,9 +26,9 @@ void move_times(level2::Volume& volume, std::chrono::milliseconds by);
 void restamp(level2::Volume& volume, const Station& station, UtcTime start);
 
 // A file of LDM records that is re-stamped like a volume in restamp(), but byte by byte. So the
-// messages keep the order and the contents that the RDA gave them, also those that a Volume does
-// not hold. Only station, times and position in messages 31 change; then the records are compressed
-// again.
+// messages keep the order and the contents that the RDA gave them, including contents that a Volume
+// cannot hold. Only station, times and position in messages 31 change; then the records are
+// compressed again.
 class StampedRecords {
   public:
     // Errors: not_level2 for anything but a header and whole LDM records after it; corrupt for a

@@ -15,7 +15,7 @@ using testing::random_chain;
 using testing::small_chain;
 using Rungs = std::vector<std::size_t>;
 
-// A sample on which each choice has a fixed error, and a clock that advances by `each_s` with each
+// A sample that gives each choice a fixed error. Its clock advances by `each_s` with each
 // measurement.
 struct Sample {
     std::function<std::optional<double>(const Choice&)> value;

@@ -197,8 +197,8 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
-// 2026-11-23: a move that made a block one byte too long was only noticed at the next symbol, so a
-// stream that was cut there was reported as cut and not as corrupt.
+// 2026-11-23: if a move made a block one byte too long, only the next symbol showed it. A stream
+// that was cut before that symbol was reported as cut instead of corrupt.
 TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     for (const bool is_full : {false, true}) {
         // The symbols are the digits of 100,000 or 99,999 bytes, then a move, and the end.

@@ -59,9 +59,9 @@ std::string note_of(const fs::path& path) {
     return file ? file->description().provenance.notes.at(0) : file.error().message;
 }
 
-// Expects that every grid is whole, that the cache is within its budget now and after the next
-// start, and that no temporary file remains then. The newest promised grid must exist, as it was
-// promised or replaced by a later one.
+// Expects that every grid is whole, and that the cache is within its budget now and after the next
+// start. No temporary file may be left after that start. The newest promised grid must exist, as it
+// was promised or replaced by a later one.
 void check(const fs::path& cache, const Promises& promised) {
     if (!fs::exists(cache)) return;
     EXPECT_LE(testing::allocated_bytes(cache), budget);

@@ -1,4 +1,4 @@
-// Tests that databases which another program or the disk has damaged are set aside, and that
+// Tests databases that another program or the disk has damaged. They are set aside, and their
 // readable rows are kept.
 #include <algorithm>
 #include <cstdlib>

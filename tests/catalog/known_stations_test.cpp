@@ -1,4 +1,4 @@
-// Tests that invented stations get no database, and that databases which an attack left stay
+// Tests that invented stations get no database, and that the databases of an earlier attack stay
 // closed.
 #include <chrono>
 #include <fstream>

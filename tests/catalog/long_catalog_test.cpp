@@ -39,8 +39,8 @@ class LongCatalogTest : public CatalogTest {
     }
 };
 
-// 2026-11-27: SQLite read the whole table of parts for the newest volume and for the list of a day,
-// so that the data server took more than a second to start with a million rows.
+// 2026-11-27: for the newest volume, or for the list of a day, SQLite read the whole table of
+// parts. With a million rows, the data server took more than a second to start.
 TEST_F(LongCatalogTest, AFewVolumesTakeNoTimeForTheOthers) {
     const auto reader = CatalogReader::open(directory_ / "catalog");
     ASSERT_TRUE(reader);

@@ -2,12 +2,12 @@
 //
 // usage: grid_costs FILE usual|cheapest MOMENT EAST_DEG
 //
-// One thread makes a grid of 512 x 512 x 32 cells at 1 km, centered EAST_DEG east of the site, by
-// the default chain (usual) or with every effect off (cheapest). The program prints one line,
-// "CHECKSUM STATION MOMENT CHAIN", with a checksum of the bits of the cells. scripts/check-costs
-// runs it under callgrind with the usual library and with a library that can make only this chain
-// (stormcellar/grid/chosen.h), and compares the instructions of counted_geometry() and
-// counted_grid(). Exit status: 0 done, 1 the work failed, 2 bad usage.
+// One thread makes a grid of 512 x 512 x 32 cells at 1 km, centered EAST_DEG east of the site. It
+// uses the default chain (usual), or a chain with every effect off (cheapest). The program prints
+// one line, "CHECKSUM STATION MOMENT CHAIN", with a checksum of the bits of the cells.
+// scripts/check-costs runs it under callgrind twice: with the usual library, and with a library
+// that can make only this chain (stormcellar/grid/chosen.h). It compares the instructions of
+// counted_geometry() and counted_grid(). Exit status: 0 done, 1 the work failed, 2 bad usage.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // tests/daemon/metrics_reader.h -- a strict reader of Prometheus' text format 0.0.4.
 //
-// The reader throws std::runtime_error, with the line, for everything that the format forbids. It
-// also throws for a family without HELP or TYPE, and for a family or a series that comes twice,
-// which our text must not contain.
+// The reader throws std::runtime_error, with the line, for everything that the format forbids. Our
+// text must also have HELP and TYPE for each family, and each family and series only once;
+// otherwise the reader throws, too.
 #pragma once
 
 #include <map>

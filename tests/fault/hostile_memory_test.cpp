@@ -24,8 +24,8 @@ class LivingMemory : public HostileCases {
   protected:
     static constexpr int files = 100;
 
-    // Makes files that each unpack to a sweep of 50 MB without an end, and begin a record that
-    // never comes.
+    // Makes files that begin a record which never comes. Each file unpacks to 50 MB of a sweep that
+    // has no end.
     void put_endless(const std::function<std::string(int)>& station_of) {
         for (int i = 0; i < files; ++i) {
             const std::string station = station_of(i);

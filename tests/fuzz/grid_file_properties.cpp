@@ -103,8 +103,8 @@ void require_same_cells(const grid::Grid& a, const grid::Grid& b) {
     require(a.values == b.values, "other values");
 }
 
-// Requires that a grid accepted by verify() can be written and read back unchanged, and that
-// writing it once more gives the same bytes.
+// Requires that a grid that verify() accepts can be written and read back unchanged. Writing it
+// once more must give the same bytes.
 void require_writable(const GridFile& file, const grid::Grid& cells) {
     OneMemoryFile first, second;
     const auto written =

@@ -42,11 +42,11 @@ void check_messages(std::span<const std::byte> stream);
 // chunks, some of them lost, repeated or damaged, give the same result in any order.
 void check_live(std::span<const std::byte> input);
 
-// Checks that a .Z file expands to the same bytes as with slow_expand(), and that the file,
-// compressed once more, expands to itself.
+// Checks that a .Z file expands to the same bytes as with slow_expand(). Compressed once more, the
+// file must expand to itself.
 void check_compress(std::span<const std::byte> file);
 
-// Checks a tar or zip archive: the output is within the limits, names are unique and do not lead
+// Checks a tar or zip archive. The output is within the limits, names are unique and do not lead
 // out of the archive, and reading ends.
 void check_archive(std::span<const std::byte> file);
 

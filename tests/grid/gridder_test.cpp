@@ -181,9 +181,9 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     EXPECT_NEAR(value_at(grid, -75, 130, 3.5), expected(0.5, 0.9, 10, 30), 0.05);
 }
 
-// Regression of 2026-11-21: where sweeps changed places, a tile's plan lacked a sweep beside a
-// cell, so cells that were not seen became no echo. In this test, every second radial is above or
-// below the elevation of its sweep.
+// Regression of 2026-11-21: where sweeps changed places, the plan of a tile lacked a sweep beside a
+// cell. Cells that were not seen then became no echo. Here, every second radial is above or below
+// the elevation of its sweep.
 TEST(Gridder, SweepsThatChangePlacesAreAllLookedAt) {
     std::vector<SweepPlan> plans;
     for (const double elevation_deg : {0.5, 0.9, 1.3, 1.7, 2.1}) {

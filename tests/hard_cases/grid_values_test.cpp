@@ -448,8 +448,8 @@ GridCase ambiguous_patches() {
     return given;
 }
 
-// Velocities differ by less than 5 m/s within 7 km, the reach of a cell and its gates, so a cell
-// that differs more from the velocity at its place holds a value that no gate around it has.
+// A cell uses gates within 7 km, over which velocities differ by less than 5 m/s. So a cell that is
+// further from the velocity at its place has a value that no gate around it has.
 TEST(AmbiguousPatches, KeepTheirPlacesAndInventNoVelocityByAnyMethod) {
     const GridCase given = ambiguous_patches();
     expect_sound_by_every_method(given, {}, [&](const Method& method, const Grid& grid) {

@@ -1,7 +1,7 @@
 // Tests that an odd value in a field of a radial does not lose a gate if the structure of the
-// message stays intact. The test sets each field of the message header, of the headers of messages
-// 1 and 31 and of the blocks to values that no radar sends, in one radial and in all. Every gate of
-// the real volume must still be there.
+// message stays intact. The test takes each field of the message header, of the headers of messages
+// 1 and 31, and of the blocks. It sets the field to values that no radar sends, in one radial and
+// in all. Every gate of the real volume must still be there.
 //
 // Fields that give the place of gates, or the sweep and azimuth to which they belong, may lose
 // gates. Then everything returned must be in the volume, and everything lost must be reported.
@@ -89,8 +89,8 @@ bool is_part_of(const Gates& found, const Gates& own) {
     });
 }
 
-// Returns a text about the first returned radial whose gates match no radial of the volume, in the
-// order of the file, or an empty text if there is no such radial.
+// Finds the first returned radial whose gates match no radial of the volume, in the order of the
+// file. Returns a text about it, or an empty text if there is none.
 std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {

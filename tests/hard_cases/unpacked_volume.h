@@ -1,8 +1,8 @@
 // tests/hard_cases/unpacked_volume.h -- splits a file into its records and messages.
 //
-// The code is independent of the readers of level2, so that a test can damage a part whose place it
-// knows. The code trusts its input, so use it only for undamaged files, or for the intact start of
-// a damaged file.
+// The code is independent of the readers of level2. It tells a test where each part of a file is,
+// so that the test can damage a chosen part. The code trusts its input: use it only for undamaged
+// files, or for the intact start of a damaged file.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 //
 // Letters and thin lines differ slightly between versions of FreeType and Cairo; everything else
 // has the same bits. So both pictures are first averaged over 3 x 3 pixels. Then colors are
-// compared (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels, so that one label that
-// moved shows even in a large picture.
+// compared (CIEDE2000), over the whole picture and in tiles of 8 x 8 pixels. Tiles show a single
+// label that moved, even in a large picture.
 #pragma once
 
 #include "stormcellar/base/result.h"

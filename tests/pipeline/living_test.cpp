@@ -234,8 +234,7 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     // (SAILS).
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), shown), 0);
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
-    ASSERT_TRUE(outcomes.back().living_left_out)
-        << "a high last sweep is left out without time";
+    ASSERT_TRUE(outcomes.back().living_left_out) << "a high last sweep is left out without time";
     EXPECT_TRUE(outcomes.back().living.empty());
     has_time = true;
     append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));

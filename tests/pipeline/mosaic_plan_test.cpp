@@ -1,5 +1,6 @@
-// Checks the promises of the planner for mosaics (frames) of real volumes, of one site between its
-// volumes and of several sites, as tests/grid/honesty_test.cpp does for one volume:
+// Checks the promises of the planner for mosaics (frames) of real volumes, as
+// tests/grid/honesty_test.cpp does for one volume. Frames are of one site between its volumes, and
+// of several sites.
 //
 // - An effect that the planner left off changes the frame by less than the budget if the effect is
 //   forced on.

@@ -238,8 +238,8 @@ bool is_land(const BaseMap& map, int detail, grid::GeoPoint place) {
     return is_within;
 }
 
-// 2026-11-28: the ring of Siberia goes on beyond 180 degrees and was closed across the whole earth,
-// so from 65 to 69 degrees north the map had land as sea, and sea as land.
+// 2026-11-28: the ring of Siberia goes on beyond 180 degrees, but was closed across the whole
+// earth. From 65 to 69 degrees north, the map then showed land as sea, and sea as land.
 TEST(BaseMap, LandAndSeaAreNotTurnedBesideTheAntimeridian) {
     const auto map = BaseMap::built_in().value();
     for (int detail = 0; detail < map_detail_count; ++detail) {

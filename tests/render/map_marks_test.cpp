@@ -134,8 +134,8 @@ TEST(MapMarks, NamesTheLargestCitiesAndTheDistances) {
     EXPECT_EQ(planned.marks.site_texts[0].text, "KTLX");
 }
 
-// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than 10 km, so the name
-// must be west of the town, although there is room for it across the edge.
+// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than that. The name must
+// be west of the town, although east of it there is room across the edge.
 TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
     const Planned planned(spec_of(Projection::azimuthal_equidistant, 36.0, -97.05, 220, 230, 1000),
                           Camera{180, 0, 0.8}, 672, 462, 1, {});

@@ -1,6 +1,6 @@
-// Tests that each fact is written once: only one file has the names of moments and of products, no
-// switch over an enumeration of the tables has a `default:` that lets a forgotten case compile, and
-// the recipes of CONTRIBUTING.md name few files, which exist.
+// Tests that each fact is written once. Only one file has the names of moments, and one the names
+// of products. No switch over an enumeration of the tables has a `default:`, which would let a
+// forgotten case compile. The recipes of CONTRIBUTING.md name few files, which exist.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

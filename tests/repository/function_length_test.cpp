@@ -1,9 +1,9 @@
 // Tests that functions outside the tests have at most 60 lines, from the first line of the head to
-// the closing brace. The test Repository.Format enforces clang-format's layout, so a function in a
-// namespace goes from a line without indent to a line "}", and a function in a class from a line
-// with an indent of four to a line "    }". A block with this indent inside a function is measured,
-// too, but cannot be longer than the function. A TypeScript function may also be a constant, which
-// ends with "};". Shaders have the layout of C++.
+// the closing brace. The test Repository.Format enforces clang-format's layout, so indents show
+// where functions end. A function in a namespace goes from a line without indent to a line "}". A
+// function in a class goes from a line with an indent of four to a line "    }". A block with this
+// indent inside a function is measured, too, but cannot be longer than the function. A TypeScript
+// function may also be a constant, which ends with "};". Shaders have the layout of C++.
 #include <filesystem>
 #include <sstream>
 #include <string>

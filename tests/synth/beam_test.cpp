@@ -78,11 +78,10 @@ struct Observed {
 };
 
 // The storm is independent of height. Its dBZ falls with the square of the distance across the
-// beam, so Z is a Gaussian of deviation s, and the mean over a Gaussian beam of deviation b is
-// known:
+// beam, so Z is a Gaussian of deviation s. Its mean over a Gaussian beam of deviation b is known:
 //   peak + 10 log10(s / sqrt(s^2 + b^2)) - (10 / ln 10) x^2 / (2 (s^2 + b^2)).
-// The turn in azimuth is small. The curvature of the arc across the beam and the end of the pattern
-// allow 0.1.
+// The turn in azimuth is small. The tolerance of 0.1 is for the curvature of the arc across the
+// beam, and for the end of the pattern.
 TEST(BeamWidth, AGaussianStormIsSmearedAsItMustBe) {
     Observed observed;
     observed.cut.azimuth_spacing_deg = 0.01F;

@@ -75,8 +75,8 @@ async function read(viewer) {
 }
 const speedIn = (reading) => Number(/^(-?[\d.]+) m\/s/.exec(reading)?.[1]);
 
-// Returns a view of the eyewall to the north-east of the radar, where the air moves away so fast that the measured
-// velocity is folded to the other sign.
+// Returns a view of the eyewall to the north-east of the radar. Air moves away so fast there that the measured velocity
+// is folded to the other sign.
 const eyewall = ({ measured, dealiased }) =>
   viewOf(dealiased, [25, 80], [40, 95], (r, g) => dealiased.value(r, g) >= 42 && measured.value(r, g) < -5);
 

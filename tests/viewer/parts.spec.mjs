@@ -1,5 +1,6 @@
-// Checks a grid in parts, which is too large for the page's memory: what the page says until all bricks have come, its
-// picture against the slicer's, and what it does if the WebGL context is lost or the server evicts the grid.
+// Checks a grid in parts, which is too large for the page's memory. Checks what the page says until all bricks have
+// come, and compares its picture with the slicer's. Makes the page lose its WebGL context, and the server evict the
+// grid.
 import { expect, expectLikeSlicer, report, test } from './fixtures.mjs';
 import { viewOf } from './slicer.mjs';
 

@@ -1,5 +1,5 @@
-// tests/web/pictured_storm.h -- a real volume in a catalog and a cache (Oklahoma, 3 May 1999), and
-// the colors that its pictures should have, computed without the code that draws.
+// tests/web/pictured_storm.h -- a real volume in a catalog and a cache (Oklahoma, 3 May 1999).
+// Computes the colors that its pictures should have, without the code that draws.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Follows a station in a bucket that is kept in memory, with a simulated clock, through all events
-// that a bucket may show.
+// Follows a station in a bucket in memory, with a simulated clock, through everything that may
+// happen in a bucket.
 #include "fetch/feed/station_follower.h"
 
 #include <algorithm>

@@ -248,8 +248,8 @@ TEST_F(Pulling, ABadGridWaitsAndHoldsUpNoOther) {
     EXPECT_TRUE(pulled(1) == other_.file(1));
 }
 
-// 2026-11-28: a machine that listed 10,000 new names each turn and answered each request with junk
-// caused 165,000 directories in half a minute, a log line for each, and names that stayed in memory
+// 2026-11-28: a machine listed 10,000 new names each turn and answered each request with junk. In
+// half a minute this made 165,000 directories and as many log lines, and the names stayed in memory
 // for hours.
 TEST_F(Pulling, AMachineOfJunkIsLeftAloneAndLeavesNothing) {
     int turn = 0;

@@ -92,8 +92,8 @@ function collect(
 }
 
 // Returns the columns that the view needs, sorted from the middle of the picture outward. `levels` are the finest and
-// the coarsest level to choose from. At most `room` bricks are finer than the coarsest level; if more are needed, takes
-// coarser cells.
+// the coarsest level to choose from. At most `room` bricks are finer than the coarsest level: cells get coarser until
+// this holds.
 export function wantedColumns(
     placed: Placed,
     pyramid: Pyramid,
@@ -115,7 +115,7 @@ export function wantedColumns(
     }
 }
 
-// Returns all columns that a view shows, with or without echo, each of the coarsest level whose cells are at most
+// Returns all columns that a view shows, with or without echo. Each is of the coarsest level whose cells are at most
 // `mostPixels` wide, or of level 0 if even its cells are wider.
 export function seenColumns(placed: Placed, pyramid: Pyramid, mostPixels: number): WantedColumn[] {
     return collect(placed, pyramid, [0, pyramid.levels.length - 1], mostPixels, () => true);

@@ -1,5 +1,5 @@
-// Computes the share of air that was not seen, and the share that is range folded, in coarse cells of 4 x 4 columns and
-// 2 levels, as render/volume/haze.h does.
+// Computes two shares of the air, as render/volume/haze.h does: air that was not seen, and range folded air. They are
+// computed in coarse cells of 4 x 4 columns and 2 levels.
 
 import { CellState, PackedGrid } from '../wire/packed_grid';
 import { levelCodes } from './level_codes';

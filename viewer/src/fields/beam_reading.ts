@@ -1,5 +1,5 @@
-// Finds the beam that saw a point of a grid, the time when the beam saw the point, and the error that the grid's audit
-// states for values there.
+// Finds the beam that saw a point of a grid, and the time when it did. Finds the error that the grid's audit states for
+// values at the point.
 
 import { Place, geodesic } from '../earth/projection';
 import { GridFacts, SweepTime } from '../wire/api';

@@ -31,7 +31,7 @@ export class News {
         await this.takeNews(state.domain, state.moment, shown.time, '', mostTimes);
     }
     // Takes a new list of times. If the time that the user looks at was evicted, goes to the nearest time and says so.
-    // If the user asked for a time that was missing, goes to the time that is now nearest to the missing time.
+    // If the user asked for a missing time, goes to the nearest time of the new list.
     private takeNewTimes(stored: string[]): void {
         const { app } = this;
         const [now, missedTime] = [app.timeline.now, app.missedTime];
@@ -67,8 +67,8 @@ export class News {
         await app.showing.showTime();
     }
 
-    // Handles an event of a domain and moment. `changedTime` is the time of a grid that was made or made again, and
-    // `oldest` the first time that is left after an eviction. Asks for at most `most` times.
+    // Handles an event of a domain and moment. `changedTime` is the time of a grid that was made or made again.
+    // `oldest` is the first time that is left after an eviction. Asks for at most `most` times.
     async takeNews(
         domain: string | undefined,
         moment: string | undefined,

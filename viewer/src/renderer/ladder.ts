@@ -1,8 +1,8 @@
 // Lists the ways of drawing (rungs), with their costs and their differences from the slicer. scripts/viewer-ladder
 // measures and writes the rows below.
 //
-// dE is CIEDE2000 against the slicer with 2048 slices. It is the 99th percentile over the pixels that show echo in
-// either picture, in the scene where this is largest.
+// dE is the difference from the slicer with 2048 slices, in CIEDE2000. A row has the 99th percentile over the pixels
+// that show echo in either picture, in the scene with the largest difference.
 
 export interface Quality {
     name: string;

@@ -59,8 +59,8 @@ function walk({ grid, middle }: Cells, ray: Ray, box: Crop, untilDepth: number, 
     if (!depths) return;
     const [width, height] = cellSizeM(grid);
     const { way, geometry } = ray;
-    // A step is as long as the ray needs for half a cell along the ground or half of the thinnest level, whichever is
-    // less, but at least 1 / mostSteps of the way.
+    // A step crosses half a cell along the ground or half of the thinnest level, whichever the ray crosses sooner. It
+    // is at least 1 / mostSteps of the way long.
     let thinnestM = Infinity;
     for (let z = 1; z < grid.nz; ++z) thinnestM = Math.min(thinnestM, grid.levelsM[z]! - grid.levelsM[z - 1]!);
     const perMeter = Math.max(

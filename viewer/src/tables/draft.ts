@@ -2,7 +2,7 @@
 // of color and opacity that a user can move each of them.
 //
 // Numbers of a draft are rounded as in files and addresses, so that saving changes nothing. The page draws the table
-// that it would read from the draft's file, so that `stormcellar frame` draws the same picture with this file.
+// that the draft's file has, so `stormcellar frame` draws the same picture with this file.
 
 import { ColorTable, ExtinctionPoint, Rgba } from '../wire/color_tables';
 import { colorDistance, cornersToKeep, mixed } from './simplify';
@@ -124,8 +124,8 @@ export function draftOf(table: ColorTable, moment: string, usual: UsualOpacity):
 
 // ---- To tables
 
-// Returns the index of the last point at or below a value (0 if all are above), and how far the value is on the way to
-// the next point, from 0 to 1.
+// Returns the index of the last point at or below a value, or 0 if all points are above it. Also returns how far the
+// value is on the way to the next point, from 0 to 1.
 function placeAmong(points: { value: number }[], value: number): [number, number] {
     let i = points.length - 1;
     while (i > 0 && points[i]!.value > value) --i;

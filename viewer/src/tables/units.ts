@@ -74,8 +74,8 @@ export function valueText(value: number, stored: string, units: Units, digits = 
     return symbol === '' ? String(number) : `${number} ${symbol}`;
 }
 
-// Returns the distance between rings: the least round number of units that is at least 7/30 of `halfM`, so that at most
-// four rings fit into `halfM`. The distance is at most 1000 units, even if more rings fit then.
+// Returns the distance between rings. It is the least round number of units that is at least 7/30 of `halfM`, so at
+// most four rings fit into `halfM`. It is at most 1000 units, even if more rings fit then.
 export function ringSpacingM(halfM: number, units: Units): number {
     const wanted = (halfM / 3) * 0.7;
     const steps = [10, 25, 50, 100, 200, 500, 1000].map((number) => number * units.distance.si);

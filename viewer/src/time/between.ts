@@ -2,8 +2,8 @@
 
 export const longestBridgeMs = 30 * 60 * 1000; // as in pipeline/mosaic/between_grids.h
 
-// Returns the stored times, and between them the whole multiples of `everyS` seconds, except in gaps that are too long
-// and except the instants in `missing`, for which the server had no grid.
+// Returns the stored times, and between them the whole multiples of `everyS` seconds. Gaps that are too long stay
+// empty. Leaves out the instants in `missing`, for which the server had no grid.
 export function instantsBetween(stored: string[], everyS: number, missing: ReadonlySet<string>): string[] {
     const everyMs = everyS * 1000;
     const instants: string[] = stored.slice(0, 1);

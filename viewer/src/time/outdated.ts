@@ -8,8 +8,8 @@ import { longestBridgeMs } from './between';
 //   - the kept grid of this time;
 //   - frames between this time and its neighbors in `times`, which rise; if `times` is empty, frames within
 //     longestBridgeMs;
-//   - regions, which may be merged from this grid, except `shown` (DOMAIN/MOMENT), because the page knows which of its
-//     instants changed.
+//   - regions, which may be merged from this grid. Only the region `shown` (DOMAIN/MOMENT) is kept, because the page
+//     knows which of its instants changed.
 export function outdatedBy(of: string, time: string, times: string[], shown: string): (key: string) => boolean {
     const far = (ms: number) => (times.length > 0 ? time : new Date(Date.parse(time) + ms).toISOString());
     const before = times.filter((one) => one < time).pop() ?? far(-longestBridgeMs);

@@ -23,7 +23,7 @@ function copy(app: App, text: string, said: string, ...notes: string[]): void {
     );
 }
 
-// Saves the next fine picture under its own domain, moment and time, which may differ from those that are being loaded.
+// Saves the next fine picture. Names it by its own domain, moment and time, because others may be loading already.
 function save(app: App, drawing: Drawing): void {
     app.say(texts.saving);
     drawing.whenFine(

@@ -118,8 +118,8 @@ export class StartMap {
         this.draw();
     }
 
-    // Fits the view to all mosaics and stations. If at least 80 % of the stations are within 65 degrees of longitude of
-    // their median, leaves out the other stations, because a few stations on other continents would shrink the map.
+    // Fits the view to all mosaics and stations. A few stations on other continents would shrink the map. So if at
+    // least 80 % of the stations are within 65 degrees of longitude of their median, leaves out the other stations.
     // Returns null if there is nothing to show.
     private fit(): MapView | null {
         const { stations, mosaics } = this.data;

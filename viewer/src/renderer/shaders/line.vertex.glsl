@@ -23,8 +23,9 @@ void main() {
     // Find the direction of the segment in the picture. A segment without length gets an arbitrary direction.
     vec2 way = b.xy - a.xy;
     vec2 unit = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
-    // Place one of the strip's four corners. The strip is 0.7 pixels wider than the line on each side, so that edges
-    // can fade, and 0.3 pixels longer at each end, so that segments overlap.
+    // Place one of the strip's four corners. The strip is 0.7 pixels wider than the line on each
+    // side, because edges fade there. It is 0.3 pixels longer at each end, so that segments
+    // overlap.
     float side = float(gl_VertexID & 1) * 2.0 - 1.0;
     bool isEnd = (gl_VertexID & 2) == 2;
     float half_ = 0.5 * width + 0.7;
