@@ -3,18 +3,20 @@
 // usage: bench_dealias [--data DIR] [--runs N] [--case] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
 // Prints a row for each file and each method:
-//   file         its name
-//   rung         the method, region or anchored
-//   gates        gates with a velocity
-//   folded       gates with a fold number other than 0
-//   ambiguous    gates that are marked ambiguous
-//   jumps        pairs of adjacent gates that differ by more than the Nyquist velocity afterward
+//   file         name of the file
+//   rung         name of the method: region or anchored
+//   gates        number of gates with a velocity
+//   folded       number of gates with a fold number other than 0
+//   ambiguous    number of gates that are marked ambiguous
+//   jumps        pairs of adjacent gates that still differ by more than the Nyquist velocity
 //   seconds      CPU time of one thread, the least of the runs
 // FILE is a Level II file. With --case it is a file that bench/compare_dealiasing.py wrote, which
-// holds sweeps with their true fold numbers: a number of sweeps; for each sweep the numbers of
-// radials and gates, the first gate and the spacing in meters (all 32-bit); azimuth, elevation and
-// Nyquist velocity of each radial and the velocity of each gate (32-bit floats); and the fold
-// fold number of each gate (8 bits), -128 where it is unknown. With --case, a row also has:
+// holds sweeps with their true fold numbers:
+//   - the number of sweeps (32 bits); then for each sweep:
+//   - the numbers of radials and gates, the first gate and the spacing in meters (32 bits each);
+//   - azimuth, elevation and Nyquist velocity of each radial, and velocity of each gate (floats);
+//   - the fold number of each gate (8 bits), -128 where it is unknown.
+// With --case, a row also has:
 //   wrong_pct         share of the gates whose fold number is not the true one
 //   marked_wrong_pct  share of the wrong gates that are marked ambiguous
 //   marked_right_pct  share of the right gates that are marked ambiguous

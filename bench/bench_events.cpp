@@ -5,25 +5,26 @@
 // --sweeps: Sends three real volumes, or the named files, record by record, on a machine that
 // should do nothing else. A client reads the events of the station. There is a row for each volume
 // and way of sending:
-//   as              growing: records are appended to one file, which is closed after each record;
-//                   chunks: each record becomes a file
-//   sweeps          sweeps that had an event
-//   grid_*_ms       from the close of a sweep's last chunk to the rename of its grid
-//   event_*_ms      from the close of a sweep's last chunk to the sweep's event at the client
+//   as              way of sending. growing: each record is appended to one file, which is closed
+//                   each time. chunks: each record becomes a file
+//   sweeps          number of sweeps that had an event
+//   grid_*_ms       time from the close of a sweep's last chunk to the rename of its grid
+//   event_*_ms      time from the close of a sweep's last chunk to the sweep's event at the client
 //   bzip2_p50_ms    median of the times that bunzip alone takes for the last chunks of sweeps
-//   *_beyond_*      the same times, less the time of bunzip for each sweep's last chunk
-//   end_ms          from the last chunk of the volume to the grid of the whole volume, synced;
-//                   end_event_ms: to the event of that grid
+//   *_beyond_*      the times of grid_* and event_*, less bunzip's time for the sweep's last chunk
+//   end_ms          time from the volume's last chunk to the grid of the whole volume, synced
+//   end_event_ms    time from the volume's last chunk to the event of that grid
 // --hour: Plays the heaviest national hour (bench/national_feed.h) as chunks at its own speed,
 // while --streams N (1,000) clients each read the events of one station. There is one row:
-//   grids_per_s     renames of grids; events_per_s: grids with an event; heard_per_s: events read
-//                   by all clients
-//   lost            events that a client missed and another client of the same station read
-//   closed          streams that ended
-//   event_*         from the rename of a grid to its event, at each client
+//   grids_per_s     renames of grids a second
+//   events_per_s    grids with an event a second
+//   heard_per_s     events a second that all clients together read
+//   lost            number of events that a client missed and another client of the station read
+//   closed          number of streams that ended
+//   event_*         time from the rename of a grid to its event, at each client
 //   web_cores       CPU time of stormcellar-web divided by wall time
-//   web_peak_mib    its peak resident memory (VmHWM)
-//   grid_*          from the last chunk of a volume to its grid (bench/feed_run.h)
+//   web_peak_mib    peak resident memory of stormcellar-web (VmHWM)
+//   grid_*          time from the last chunk of a volume to its grid (bench/feed_run.h)
 // --sites N: uses only the first N of the 160 sites, for a trial. Without --sweeps and --hour, both
 // are run.
 #include <algorithm>

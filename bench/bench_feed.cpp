@@ -4,23 +4,23 @@
 //        [--seconds N] [--sites N] [--full] [--soak-hours N] [--threads N] [--json]
 //        (bench/request.h)
 // A national feed (bench/national_feed.h) is made once, untimed, below --work. For each speed, the
-// stormcellard of this build starts with its own directories there and grids every volume at 1 km
-// and 32 levels. The chunks that every site has already sent of its current volume exist from the
-// start. There is a row for each speed:
-//   speed          the requested speed
-//   sustained_x    hours of such data processed in an hour (bench/feed_run.h); with --sites, of
-//                  these sites
+// stormcellard of this build starts there with its own directories, and grids every volume at 1 km
+// and 32 levels. Chunks that sites sent before the feed's clock began exist from the start. There
+// is a row for each speed:
+//   speed          requested speed of the feed's clock; at speed 1, an hour takes an hour
+//   sustained_x    hours of the feed, or of its first --sites, that the daemon processes in an hour
+//                  (bench/feed_run.h)
 //   raw_mb_per_s   10^6 bytes of messages a second of wall time
-//   latency_*      from the last chunk to the grid
+//   latency_*      time from the last chunk of a volume to its grid
 //   bzip2_share    CPU time of bunzip alone for the same bytes, timed before and after each row,
 //                  divided by the daemon's CPU time
-//   peak_mib       peak resident memory (VmHWM); at most file_mib of it is page cache (mapped
-//                  files), and at most anonymous_mib is the daemon's own
-//   daemon_cores, feeder_cores  CPU time divided by wall time
-//   volumes        volumes whose last chunk was sent
-//   ungridded      of these volumes, those without a grid at the end
+//   peak_mib       peak resident memory of the daemon (VmHWM). At most file_mib of it is page cache
+//                  (mapped files), and at most anonymous_mib is the daemon's own
+//   daemon_cores, feeder_cores  CPU time of daemon and feeder divided by wall time
+//   volumes        number of volumes whose last chunk was sent
+//   ungridded      number of these volumes that have no grid at the end
 //   held           share of the time during which the feed was paused
-//   cache_mib      the largest size of the cache
+//   cache_mib      largest size of the cache
 // --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
 // sites over N hours of the feed's clock, as fast as the daemon can read them. Files, rows and
 // grids must agree at the end. --full: plays the whole hour at speed 1, and then 24 hours as for

@@ -3,18 +3,18 @@
 // usage: bench_grid [--data DIR] [--threads N] [--runs N] [--json] [FILE ...]
 //   (bench/request.h; every real volume in LDM records, unless files are named)
 // There is a row for each file, grid spec and number of threads:
-//   file          its name
-//   spec          columns x rows x levels @ spacing, about the site
-//   threads       for decoding and gridding; libbz2 always has one
-//   decode_s      level2::decode of one moment (REF)
-//   geometry_s    azimuth and arc of every column
-//   first_grid_s  gridding a decoded volume without a kept geometry: geometry and grid
-//   grid_s        gridding a decoded volume with the geometry kept
-//   write_s       the netCDF file
-//   whole_s       the program `stormcellar grid`, from start to end
-//   libbz2_s      libbz2 alone over the same LDM records
-//   ratio         (whole_s - its own time for writing netCDF) / libbz2_s
-//   mcells_per_s  10^6 cells a second of grid_s
+//   file          name of the file
+//   spec          columns x rows x levels @ spacing; the site is in the middle
+//   threads       number of threads that decode and grid; libbz2 always has one
+//   decode_s      time of level2::decode for one moment (REF)
+//   geometry_s    time to compute azimuth and arc of every column
+//   first_grid_s  time to grid a decoded volume whose geometry must be computed, too
+//   grid_s        time to grid a decoded volume whose geometry is kept
+//   write_s       time to write the netCDF file
+//   whole_s       time of the program `stormcellar grid`, from start to end
+//   libbz2_s      time of libbz2 alone for the same LDM records
+//   ratio         (whole_s - the program's time for writing netCDF) / libbz2_s
+//   mcells_per_s  10^6 cells a second during grid_s
 //   peak_mib      peak resident memory of a process that decodes and grids the file once
 // Times are in seconds, the least of the runs. In each run, all phases are timed one after another.
 // Files without LDM records have no libbz2_s and no ratio; files without the moment are left out.

@@ -2,15 +2,16 @@
 //
 // usage: bench_kernels [--data DIR] [--threads N] [--runs N] [--json] [--benchmark_filter=REGEX]
 //        [FILE ...]   (bench/request.h; every real volume, unless files are named)
-// Google Benchmark times them in runs that alternate at random. A row has:
-//   group    "volume FILE" (decompresses only the LDM records, or decodes the whole file) or
-//            "columns PROJECTION" (computes the geometry of 512 x 512 columns 120 km from the site;
-//            left out if files are named)
-//   way      name of the way
+// Google Benchmark times all ways in runs that alternate at random. A row has:
+//   group    the work: "volume FILE" or "columns PROJECTION"
+//   way      name of the way to do it
 //   ms       least time of the runs
 //   ratio    time of the group's first way divided by this time
-// The first way for a volume is libbz2 on one thread, one record after another. All other ways of
-// decompression must first give the same bytes. The filter is matched with "GROUP/WAY".
+// A way of a group "volume FILE" decompresses only the LDM records, or decodes the whole file. The
+// first way is libbz2 on one thread, one record after another. All other ways of decompression must
+// first give the same bytes. A way of a group "columns PROJECTION" computes the geometry of 512 x
+// 512 columns 120 km from the site; these groups are left out if files are named. The filter is
+// matched with "GROUP/WAY".
 #include <algorithm>
 #include <array>
 #include <cstdio>

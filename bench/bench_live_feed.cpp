@@ -2,10 +2,11 @@
 //
 // usage: bench_live_feed [--data DIR] [--work DIR] [--json]      (bench/request.h)
 // Real chunks become visible in the bucket one after another, at times that are independent of the
-// feed's polls, and the real stormcellard grids the chunks that the feed writes. There is a row for
+// feed's polls. The real stormcellard grids the chunks that the feed writes. There is a row for
 // each set of chunks:
-//   file_*   from the chunk's appearance in the bucket to the drop directory
-//   grid_*   from its appearance to the living grid in the cache, for chunks that complete a sweep
+//   file_*   time from the chunk's appearance in the bucket to its appearance in the drop directory
+//   grid_*   time from the chunk's appearance in the bucket to the living grid in the cache, for
+//            chunks that complete a sweep
 //   beyond_* grid_* less the polling interval; the promise is at most one second at p95
 #include <chrono>
 #include <filesystem>

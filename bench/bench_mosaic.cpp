@@ -10,11 +10,11 @@
 // sites), and later runs use them again. The 60 merged volumes, one for each 5 minutes, go into a
 // cache in this directory, which is removed at the end. Each row is measured in a process of its
 // own:
-//   sites      1, 10, 30, 50, 100
-//   threads    threads of all timed work
-//   total_s    from raw files to merged volumes
-//   libbz2_s   libbz2 alone over the same files with as many threads, alternating with the work of
-//              total_s
+//   sites      number of sites: 1, 10, 30, 50 or 100
+//   threads    number of threads of all timed work
+//   total_s    time from raw files to merged volumes
+//   libbz2_s   time of libbz2 alone for the same files with as many threads. Its portions alternate
+//              with the portions of the work of total_s
 //   ratio      total_s / libbz2_s
 //   expansion  bytes of messages / bytes of files
 //   raw_gb     10^9 bytes of messages
@@ -28,22 +28,22 @@
 // Then the rows of the United States at 0.01 degrees follow (bench/nation.h), with the least times
 // of the runs. --sites or --us prints only one of the two tables. --cache DIR keeps the mosaic
 // there as the domain US.
-//   update_cpu, update_s  merging the new volume's partial into the mosaic
+//   update_cpu, update_s  times to merge the new volume's partial into the mosaic
 //   sum_cpu     CPU time of all threads from the bytes of the new volume to the new mosaic
-//   merge_cpu, merge_s    merging the mosaic anew from all partials
+//   merge_cpu, merge_s    times to merge the mosaic anew from all partials
 //   peak_mib    peak memory of the process so far
 //
-// --batch: instead compares the work as a batch of tasks (`stormcellar batch`) with one process.
-// All raw files are then made, 3.5 GB for 100 sites and five hours. A task grids a station's day,
-// or merges the frames of an hour; --threads N tasks run at a time. Slurm must be running;
-// scripts/bench-batch starts it. Both ways alternate, and each row is one run:
-//   engine, sites, tasks, frames
-//   batch_s      from `batch submit` to the end of the last task
-//   mosaic_s     the same files in one process; ratio: batch_s / mosaic_s
-//   task_cpu_s, mosaic_cpu_s, cpu_ratio  CPU time inside tasks, and of the single process
-//   overhead_s   time between tasks for each task: --threads times batch_s, less the time inside
-//                tasks
-//   plan_s       `batch plan`, which is not part of batch_s
+// --batch: instead compares two ways to do the work: a batch of tasks (`stormcellar batch`) and one
+// process. All raw files are then made, 3.5 GB for 100 sites and five hours. A task grids a
+// station's day, or merges the frames of an hour; --threads N tasks run at a time. Slurm must be
+// running; scripts/bench-batch starts it. Both ways alternate, and each row is one run:
+//   engine, sites, tasks, frames  the engine of the batch, and the numbers of the other three
+//   batch_s      time from `batch submit` to the end of the last task
+//   mosaic_s     time of one process for the same files; ratio is batch_s / mosaic_s
+//   task_cpu_s, mosaic_cpu_s  CPU times inside tasks, and of one process; cpu_ratio: their ratio
+//   overhead_s   time between tasks, for each task: --threads times batch_s less the time inside
+//                tasks, divided by the number of tasks
+//   plan_s       time of `batch plan`, which is not part of batch_s
 #include <algorithm>
 #include <chrono>
 #include <cmath>

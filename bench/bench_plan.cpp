@@ -3,24 +3,25 @@
 // usage: bench_plan [--data DIR] [--threads N] [--runs N] [--times | --errors] [--json] [FILE ...]
 //   (bench/request.h; every real volume, unless files are named)
 // --times: prints a row for each file, moment, number of threads and choice of rungs:
-//   file         its name
+//   file         name of the file
 //   moment       REF or VEL
-//   threads      for gridding
+//   threads      number of threads that grid
 //   choice       the rungs that differ from the default chain
-//   predicted_s  the prediction of grid::predict()
-//   grid_s       gridding with the geometry kept, the least of the runs. With exact geodesics,
-//                which only one chain needs, the time includes making the geometry. For one thread
-//                it is CPU time, so that other programs do not count; for several threads it is
-//                wall time
+//   predicted_s  time that grid::predict() predicts
+//   grid_s       time of gridding with the geometry kept, the least of the runs. With exact
+//                geodesics, which only one chain needs, the time includes making the geometry. For
+//                one thread it is CPU time, so that other programs do not count; for several
+//                threads it is wall time
 //   ratio        predicted_s / grid_s
 //   predict_s    time of the prediction for all choices together
 // The grid has 460 x 460 x 32 cells at 1 km. It is 0.4 degrees east of the site, so that site frame
-// and sphere frame differ. The choices are each rung of each step except the frame, with all other
-// steps at their default; every interpolation with and without the size of cells; and the chain's
-// exact form. --errors: prints a row for each volume, domain and budget with which the plan turns
-// an effect off:
-//   cells        cells with a value in both the chosen and the exact grid
-//   stated_db    99th percentile of the error, from the plan
+// and sphere frame differ. There are three kinds of choices:
+//   - each rung of each step except the frame, with all other steps at their default;
+//   - every interpolation, with and without the size of cells;
+//   - the chain's exact form.
+// --errors: prints a row for each volume, domain and budget whose plan turns an effect off:
+//   cells        number of cells with a value in both the chosen and the exact grid
+//   stated_db    99th percentile of the error that the plan states
 //   true_db      99th percentile of the error over all these cells
 //   held         1 if true_db is at most stated_db, else 0
 // Without either option, both are done. Files without the moment are left out.

@@ -3,21 +3,21 @@
 // usage: bench_render [--data DIR] [--threads N] [--runs N] [--json]      (bench/request.h)
 // The five volumes of sequence-kbgm are gridded over 300 x 300 x 11.5 km in three sizes and drawn
 // at 796 x 532 from 20 degrees off the vertical. Each frame opens the next volume's file. There is
-// a row for each size, number of slices, method (render/volume/transfer_function.h; "smooth":
-// pre-integrated, and interpolated between rays within 2 of 255 levels) and number of threads:
+// a row for each size, number of slices, method and number of threads:
 //   volume    columns x rows x levels
-//   slices    parallel to the picture
-//   method    riemann, pre-integrated, pre-integrated-2 or smooth
-//   threads   for drawing
-//   fps       1 / (t1 + t2 + t3)
-//   t1_s      opening, validating and mapping the file
-//   t2_s      preparing the grid for the rays: the bricks that may show echo, and packed codes
-//   t3_s      the rays, and compositing over the color of the page: 8 bits a channel
-//   de_mean, de_p99  CIEDE2000 against a reference in double precision with 8,192 steps, over every
-//                    fifth column and row of the first time step
+//   slices    number of slices, which are parallel to the picture
+//   method    riemann, pre-integrated or pre-integrated-2 (render/volume/transfer_function.h), or
+//             smooth: pre-integrated, and interpolated between rays within 2 of 255 levels
+//   threads   number of threads that draw
+//   fps       frames a second: 1 / (t1 + t2 + t3)
+//   t1_s      time to open, validate and map the file
+//   t2_s      time to prepare the grid for rays: the bricks that may show echo, and packed codes
+//   t3_s      time to cast the rays, and to composite over the color of the page, 8 bits a channel
+//   de_mean, de_p99  mean and 99th percentile of CIEDE2000 against a reference in double precision
+//             with 8,192 steps, over every fifth column and row of the first volume's picture
 //   de_echo_mean, de_echo_p99  the same over the pixels with echo in the reference
 //   paper_fps  the paper's result on a graphics card of 2008; 0 for numbers of slices that the
-//              paper lacks
+//             paper lacks
 // Data that depend only on view and colors are made once for all frames, as in a loop. A run times
 // five frames and takes their mean; the row has the least of the runs. Files are read from the page
 // cache.

@@ -7,13 +7,13 @@
 // processor, while wrk runs on another. A row takes --seconds N (5). There is a row for each kind
 // of request and number of clients:
 //   what            kind of request, and server
-//   clients         open connections
+//   clients         number of open connections
 //   requests_per_s  answers a second
-//   mb_per_s        bytes of the answers, with headers
-//   p50_ms, p99_ms  from the request to the end of the answer
+//   mb_per_s        10^6 bytes of answers a second, with headers
+//   p50_ms, p99_ms  median and 99th percentile of the time from request to end of answer
 //   cpu_cores       CPU time of the server divided by wall time
-//   peak_mib        resident memory of the server since its start
-//   failed          requests without an answer or with an error
+//   peak_mib        peak resident memory of the server since its start
+//   failed          number of requests without an answer or with an error
 //   of_nginx        requests_per_s divided by that of nginx in the previous row; "-" without such a
 //                   row
 // In "first" rows one client makes one request of each kind; p50_ms is the median of their times,
@@ -22,11 +22,11 @@
 // --tiles: instead, one client requests tiles one by one, --requests of each zoom, from the center
 // of the domain outward. It requests them from `stormcellar serve` with a file, and then with the
 // cache DIR of the domain US (bench_mosaic --us --cache):
-//   what        domain, layer and zoom
-//   first_ms    the layer's first tile, which makes the product and its overviews
-//   new_p50_ms, new_max_ms    tiles that were not requested before
-//   kept_p50_ms               the same tiles again
-//   peak_mib    resident memory of the server since its start
+//   what            domain, layer and zoom
+//   first_ms        time of the layer's first tile, which makes the product and its overviews
+//   new_p50_ms, new_max_ms  median and longest time of tiles that were not requested before
+//   kept_p50_ms     median time of the same tiles when requested again
+//   peak_mib        peak resident memory of the server since its start
 #include <algorithm>
 #include <array>
 #include <cmath>
