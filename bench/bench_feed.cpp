@@ -89,7 +89,7 @@ class BzipCost {
   private:
     struct Kind {
         Bytes file;
-        double share = 0;  // of the feed's bytes
+        double share = 0;  // share of the feed's bytes
     };
     std::map<int, Kind> kinds_;
     double seconds_ = 0;

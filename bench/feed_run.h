@@ -105,8 +105,8 @@ class FeedRun {
 
     std::mutex mutex_;  // guards all members below
     std::condition_variable gridded_;
-    std::unordered_map<std::string, Sent> sent_;  // by grid
-    std::map<std::size_t, std::size_t> last_;     // by site: volume of the newest grid
+    std::unordered_map<std::string, Sent> sent_;  // by name of the grid
+    std::map<std::size_t, std::size_t> last_;     // newest gridded volume of each site
     std::size_t unfinished_ = 0;
     Clock::time_point next_look_;
     Stretch stretch_;
@@ -118,11 +118,11 @@ class FeedRun {
 
 // A comparison of files, catalog rows and grids, which must agree after a long run.
 struct SoakCheck {
-    std::size_t files = 0;          // below the drop directory
-    std::size_t rows = 0;           // of whole volumes in the catalog, deleted files included
+    std::size_t files = 0;          // files below the drop directory
+    std::size_t rows = 0;           // catalog rows of whole volumes, also of deleted files
     std::size_t missing_rows = 0;   // sent volumes without such a row
-    std::size_t wrong_rows = 0;     // "gone" though the file exists, or the reverse
-    std::size_t grids = 0;          // in the cache
+    std::size_t wrong_rows = 0;     // "gone" although the file exists, or the reverse
+    std::size_t grids = 0;          // grids in the cache
     std::size_t missing_grids = 0;  // stations whose newest whole volume has no grid
     [[nodiscard]] bool agrees() const { return missing_rows + wrong_rows + missing_grids == 0; }
 };

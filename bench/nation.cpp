@@ -29,7 +29,7 @@ using grid::GridSpec;
 using grid::GridWindow;
 
 constexpr std::size_t all_sites = 160;
-constexpr int stripes = 8;  // of the mosaic, made in turn, so that few files are open at once
+constexpr int stripes = 8;  // the mosaic is made stripe by stripe, so that few files are open
 
 GridSpec nation_grid() {
     GridSpec spec = grid::default_spec(37.5, -95);

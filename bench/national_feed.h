@@ -36,7 +36,7 @@ struct NationalSite {
     Station station;
     int kind = 0;
     double first_start_s = 0;  // start of volume 0 on the feed's clock, at most 0
-    std::uint64_t bytes = 0;   // of a volume
+    std::uint64_t bytes = 0;   // size of a volume
     std::size_t chunks = 0;
     std::vector<std::filesystem::path> hours;  // file for each hour
 };

@@ -20,7 +20,7 @@ enum class Counts { at_reload, at_restart };
 
 struct Key {
     std::string name;
-    std::string value, other;  // as text in the file
+    std::string value, other;  // texts of two values in the file
 };
 
 struct Section {

@@ -34,18 +34,18 @@ enum class Contents {
 struct Delivered {
     std::vector<std::filesystem::path> files;  // absolute; all files of a volume in chunks
     Contents contents = Contents::whole_volume;
-    std::string station;          // of volumes
-    std::optional<UtcTime> time;  // of the start
+    std::string station;          // station of the volume
+    std::optional<UtcTime> time;  // start of the volume
 };
 
 struct Aftermath {
-    std::size_t files = 0;        // delivered
-    std::size_t rows = 0;         // of the catalog, in all databases
-    std::size_t volumes = 0;      // delivered whole
+    std::size_t files = 0;        // delivered files
+    std::size_t rows = 0;         // rows of all databases of the catalog
+    std::size_t volumes = 0;      // volumes that were delivered whole
     std::size_t gridded = 0;      // those of `volumes` that have a whole grid in the cache
-    std::size_t grids = 0;        // in the cache, all verified
+    std::size_t grids = 0;        // grids in the cache, all of them verified
     std::size_t with_reason = 0;  // rows that are partial or rejected and give a reason
-    std::size_t set_aside = 0;    // damaged databases
+    std::size_t set_aside = 0;    // damaged databases that were set aside
     std::vector<std::string> problems;
 
     [[nodiscard]] bool holds() const { return problems.empty(); }

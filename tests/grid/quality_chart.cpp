@@ -22,7 +22,7 @@ constexpr double level_m = 500;
 constexpr double plateau_dbz = 40;
 constexpr double wave_db = 10;
 constexpr double echo_dbz = 20;
-constexpr double half_power_widths = 2.3548;  // of a Gaussian, in standard deviations
+constexpr double half_power_widths = 2.3548;  // width of a Gaussian in standard deviations
 constexpr std::array<double, 4> shifts_m = {-370, -110, 160, 430};
 
 struct Along {

@@ -55,7 +55,7 @@ class Oracle {
     [[nodiscard]] bool names_something(const DecodeReport& report) const;
 
     std::vector<RadialIdentity> radials_;
-    std::set<std::string> own_problems_;  // of the undamaged volume
+    std::set<std::string> own_problems_;  // problems of the undamaged volume
     std::map<std::string, KindFigures> figures_;
     std::chrono::duration<double> slowest_{0};
 };

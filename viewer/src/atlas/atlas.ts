@@ -65,13 +65,13 @@ export function placeOfSlot(slot: number, slots: readonly [number, number, numbe
 }
 
 export interface Atlas {
-    size: [number, number, number]; // texels
-    slots: [number, number, number]; // bricks along each axis
-    brickCount: number; // in the atlas
+    size: [number, number, number]; // number of texels along each axis
+    slots: [number, number, number]; // number of slots, each of which holds a brick, along each axis
+    brickCount: number; // number of bricks in the atlas
     texels: Uint8Array; // RG, x fastest
-    // One word for each brick of the grid, x fastest. Bits 0 to 20 hold 1 + the number of the brick's slot, or 0
-    // without a slot. Bits 21 to 23 hold the number of halvings of the slot's brick; without a slot, they hold the
-    // distance that putReaches() writes, or 0. Bits 24 to 31 hold an upper bound of the shown codes that a sample in
+    // One word for each brick of the grid, x fastest. Bits 0 to 20 have the number of the brick's slot plus 1, or 0
+    // without a slot. Bits 21 to 23 have the number of halvings of the brick in the slot. Without a slot, they have the
+    // distance that putReaches() writes, or 0. Bits 24 to 31 have an upper bound of the shown codes that a sample in
     // the brick can use.
     indirection: Uint32Array;
     bricks: [number, number, number];
@@ -87,8 +87,8 @@ export interface Atlas {
     blocks: Uint8Array;
 }
 
-export const blockEdge = 4; // cells
-export const blocksAlong = 4; // of a brick
+export const blockEdge = 4; // width of a block, in cells
+export const blocksAlong = 4; // number of blocks along an axis of a brick
 export const blocksABrick = blocksAlong ** 3;
 
 // Along an axis, a texel belongs to the block of its cell. The first texel of a block also belongs to the previous
@@ -197,7 +197,7 @@ export interface Filling {
     cellsOf: CellsOf;
     shownOf: Uint8Array; // shown code of each code of a value
     texels: Uint8Array;
-    width: number; // of the texture
+    width: number; // width of the texture, in texels
     height: number;
 }
 
@@ -272,7 +272,7 @@ export function fillSlot(filling: Filling, bx: number, by: number, bz: number, c
 }
 
 export interface ShownCodes {
-    table: Uint8Array; // of each code
+    table: Uint8Array; // shown code of each code
     scale: number; // code = offset + scale * shown code
     offset: number;
 }

@@ -15,8 +15,8 @@ export interface MadeColumn {
     level: number;
     x: number;
     y: number;
-    hasValues: boolean[]; // of its bricks, from the bottom
-    texels: Uint8Array; // of the bricks that have values, one brick after the other, each 18 x 18 x 18
+    hasValues: boolean[]; // for each brick of the column, from the bottom
+    texels: Uint8Array; // 18 x 18 x 18 for each brick that has values, one brick after the other
 }
 
 export const brickTexelBytes = 2 * paddedEdge ** 3;

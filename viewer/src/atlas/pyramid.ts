@@ -9,7 +9,7 @@ import { PackedGrid, mayHoldValues } from '../wire/packed_grid';
 export const mostHalvings = 6;
 
 export interface Level {
-    columns: [number, number]; // of bricks, along x and y
+    columns: [number, number]; // number of columns of bricks along x and y
     // Upper bound of the codes of values in each brick, z fastest, then y, then x; 0 without values.
     greatest: Uint16Array;
     // Upper bound over each brick and the bricks that touch it.
@@ -19,7 +19,7 @@ export interface Level {
 }
 
 export interface Pyramid {
-    layers: number; // bricks along z
+    layers: number; // number of bricks in a column
     levels: Level[];
 }
 

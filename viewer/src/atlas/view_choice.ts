@@ -16,7 +16,7 @@ export interface WantedColumn {
 // A view, and the sizes of a grid's bricks and cells.
 export interface Placed {
     geometry: ViewGeometry;
-    edge: number; // of a brick, in cells
+    edge: number; // width of a brick, in cells
     cellSizeM: [number, number];
 }
 

@@ -16,8 +16,8 @@ export interface BrickWindow extends Bounds {
     level: number;
 }
 export interface WindowLimits {
-    columns: number; // of cells
-    bytes: number; // of codes and states
+    columns: number; // most columns of cells in a window
+    bytes: number; // most bytes of codes and states in a window
 }
 
 const mostBricks = 16384; // the server refuses larger windows

@@ -10,7 +10,7 @@ export interface BeamReading {
     icao: string;
     rangeM: number;
     azimuthDeg: number;
-    elevationDeg: number; // of a beam through the point
+    elevationDeg: number; // elevation of a beam through the point
     widthM: number; // width of the beam at the point, between half-power points
     sweepDeg: number | null; // elevation of the nearest sweep; null if the facts list no sweeps
     timeMs: number | null; // time at which that sweep saw the azimuth of the point; null if unknown

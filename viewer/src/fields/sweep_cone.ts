@@ -43,7 +43,7 @@ export function beamTo(site: Antenna, arcM: number, heightM: number): { elevatio
     return { elevationDeg: Math.atan2(up, along) / radians, rangeM: Math.hypot(along, up) };
 }
 
-export const azimuthSteps = 7200; // of a turn
+export const azimuthSteps = 7200; // number of steps in a turn
 export const noRadial = 65535;
 
 // Finds the nearest radial for each step of azimuth. A gap is where two radials are more than one and a half median

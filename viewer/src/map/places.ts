@@ -5,8 +5,8 @@ import { Place, geodesic } from '../earth/projection';
 
 export interface StationPlace extends Place {
     icao: string;
-    name: string; // of the town, with its state
-    ageS: number | null; // of the newest grid, else of the newest volume; null without both
+    name: string; // name of the town, with its state
+    ageS: number | null; // age of the newest grid, else of the newest volume; null without both
     hasGrids: boolean;
     moments: string[];
     newestGrid: string | null; // time of the newest grid

@@ -58,8 +58,8 @@ export class Drawing {
     private movedAt = 0;
     private wasPlaying = false;
     private isDrawing = false;
-    private isWaiting = false; // for more bricks
-    private lastMs = 0; // of the last frame
+    private isWaiting = false; // a later picture is due, because bricks have come
+    private lastMs = 0; // duration of the last frame
     private frames = 0;
     private isFinal = false;
     private wish: { act: () => void } | null = null; // action that waits for a fine picture

@@ -43,9 +43,9 @@ export function blockEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry)
 }
 
 export interface Tiles {
-    side: number; // in pixels
+    side: number; // side of a tile, in pixels
     columns: number;
-    rows: number; // from the lower edge of the picture
+    rows: number; // number of rows, which begin at the lower edge of the picture
     // Four numbers for each tile that may show something: x and y of its middle, from -1 to 1 over all tiles, and the
     // least and the greatest depth.
     points: Float32Array;

@@ -32,7 +32,7 @@ import volumeFragment from 'shaders/volume.fragment.glsl';
 
 // The files of a program, in the order in which they are read.
 export interface ShaderProgram {
-    name: string; // of the program and its variant
+    name: string; // names the program and its variant
     defines: string[];
     vertex: string[];
     fragment: string[];

@@ -25,7 +25,7 @@ export interface MomentOfDomain {
     units: string;
     grids: number;
     newest: string;
-    age_s: number; // of the newest grid
+    age_s: number; // age of the newest grid
 }
 export interface Domain {
     domain: string;
@@ -254,7 +254,7 @@ export function map(
 // -- raw volumes
 
 export interface SweepRow {
-    sweep: number; // from 0
+    sweep: number; // number of the sweep, from 0
     elevation_deg: number;
     start?: string;
     moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` draws this cut of its elevation

@@ -10,7 +10,7 @@ export interface PackedSweep {
     latitudeDeg: number;
     longitudeDeg: number;
     altitudeM: number;
-    sweep: number; // from 0
+    sweep: number; // number of the sweep in its volume, from 0
     elevationDeg: number;
     firstGateM: number; // slant range to the middle of gate 0
     gateSpacingM: number;
@@ -19,11 +19,11 @@ export interface PackedSweep {
     scale: number; // value = (code - offset) / scale
     offset: number;
     gateStride: number; // number of codes for each radial
-    azimuthsDeg: Float32Array; // of the radials
+    azimuthsDeg: Float32Array; // azimuth of each radial
     elevationsDeg: Float32Array;
     gateCounts: Uint32Array;
-    startMs: number; // of the first radial; 0 without radials
-    timesMs: Float64Array; // of the radials
+    startMs: number; // time of the first radial; 0 without radials
+    timesMs: Float64Array; // time of each radial
     codes: Uint8Array | Uint16Array; // radial by radial
 }
 

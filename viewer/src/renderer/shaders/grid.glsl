@@ -10,18 +10,18 @@ uniform usampler3D indirection;
 uniform sampler2D transfer;
 #ifdef HAS_UNEVEN_LEVELS
 uniform sampler2D levels;
-uniform vec2 levelRange; // of drawn heights
+uniform vec2 levelRange; // least and greatest drawn height of the table `levels`
 #else
 uniform vec2 levelLine; // level = x + y * drawn height
 #endif
 uniform vec3 boxLow, boxHigh;
 uniform float brickHeights[66]; // drawn heights at which layers of bricks begin, and at which the last layer ends
 uniform vec3 cells;
-uniform vec2 perCell; // cells a meter
+uniform vec2 perCell; // cells in a meter, along x and y
 uniform vec3 slots; // numbers of slots along x, along y, and in a layer
-uniform vec3 perTexel; // of the atlas
+uniform vec3 perTexel; // 1 / number of texels of the atlas along each axis
 uniform vec2 binLine; // bin = x + y * shown code
-uniform uint leastShown; // shown code
+uniform uint leastShown; // bricks whose shown codes are all lower show nothing
 uniform float near, stepM, slices, depthScale;
 out vec4 color;
 

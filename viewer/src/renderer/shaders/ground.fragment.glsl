@@ -1,10 +1,10 @@
 // Draws the ground in shades that tell how the air above was seen: light where a beam was low, darker where all beams
 // were high, and hatched where there was no beam. Land and water have their own shades.
 uniform usampler2D coverage;
-uniform vec2 columns; // of the grid
-uniform float columnsATexel; // along each side
-uniform vec2 halfSize; // of the grid, in meters
-uniform float ground; // drawn height
+uniform vec2 columns; // columns of the grid along x and y
+uniform float columnsATexel; // columns of the grid that a texel covers along each side
+uniform vec2 halfSize; // half of the grid's width and height, in meters
+uniform float ground; // drawn height of the ground
 uniform vec3 page, hatch;
 uniform vec3 landShades[4], waterShades[4]; // not seen, seen from high up only, seen from low down, beyond the grid
 uniform sampler2D water; // share of water

@@ -1,7 +1,7 @@
 // Draws the maxima of columns on the ground.
 uniform vec3 seenColor, foldedColor;
-uniform vec2 halfSize; // of the grid
-uniform vec4 extent; // of the field: west, south, east, north
+uniform vec2 halfSize; // half of the grid's width and height, in meters
+uniform vec4 extent; // sides of the field: west, south, east, north
 uniform float ground;
 out vec4 color;
 void main() {

@@ -1,12 +1,12 @@
 // Draws a surface. Inside of it, at least half of the cells about a place have values, and the mean of these values is
 // at least the chosen value (with IS_BELOW, at most). Where a crop cuts the surface open, the cut shows the values
 // inside.
-uniform float chosen; // shown code
+uniform float chosen; // shown code of the surface's value
 uniform vec2 depthRange;
-uniform vec3 cellM; // of drawn space
+uniform vec3 cellM; // size of a cell in drawn space
 
 const float surfaceExposure = 0.86; // makes a surface about as light as its color
-const vec3 plainColor = vec3(0.62); // where the table has no color
+const vec3 plainColor = vec3(0.62); // color where the table has none
 const float nowhere = 1e30; // depth if the ray misses the surface; other depths may be less than 0
 
 // Returns the mean code at a place, and the share of cells with values.

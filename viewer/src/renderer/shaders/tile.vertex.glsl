@@ -1,6 +1,6 @@
 // Draws the tiles of the volume as points (echo_tiles.ts).
 layout(location = 0) in vec4 tile; // middle, and least and greatest depth at which its rays may meet visible echo
-uniform float side; // in pixels
+uniform float side; // side of a tile, in pixels
 flat out vec2 reach;
 void main() {
     reach = tile.zw;
