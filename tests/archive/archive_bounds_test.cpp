@@ -191,7 +191,7 @@ TEST(ArchiveReader, ManyLongHeadersEndItToo) {
         EXPECT_EQ(counts[0], counts[1]);
         return counts[0];
     };
-    EXPECT_EQ(names(6'000, 1'000), 1'000U) << "such headers are usual";
+    EXPECT_EQ(names(6'000, 1'000), 1'000U) << "ordinary archives have such headers";
     EXPECT_EQ(names(100'000, 30), 30U);
     EXPECT_LT(names(100'000, 60), 50U);
 }

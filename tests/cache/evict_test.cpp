@@ -85,7 +85,7 @@ TEST_F(EvictTest, RemovesWhatWasPlannedButWhatIsPinnedOrGoneByThen) {
     EXPECT_THAT(short_names(report.evicted), ElementsAre("A+10", "B.KBOX+15", "A+20"));
     EXPECT_THAT(report.problems, IsEmpty());
     EXPECT_THAT(short_names(testing::all_grids(store_)), ElementsAre("A+0", "A+30"));
-    EXPECT_FALSE(fs::exists(directory_ / "B.KBOX")) << "empty directories go";
+    EXPECT_FALSE(fs::exists(directory_ / "B.KBOX")) << "empty directories are removed";
     const auto after = plan({"", noon + minutes{100}, {}, {}});
     EXPECT_EQ(after.pinned, 1U);
     EXPECT_THAT(short_names(after.victims), ElementsAre("A+30"));

@@ -70,7 +70,7 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
     const auto refused = commit(store, 1);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::no_space);
-    EXPECT_EQ(testing::all_grids(store).size(), 1U) << "the newest stays";
+    EXPECT_EQ(testing::all_grids(store).size(), 1U) << "the newest grid stays";
 }
 
 // After the error no_space, the daemon ingests no files of any station. So a grid of an unknown

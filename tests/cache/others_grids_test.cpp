@@ -148,7 +148,7 @@ TEST_F(OthersGridsTest, WhatAnAttackLeftGoesWhenItIsOld) {
     EXPECT_EQ(store.roll().evicted, 39U);
     EXPECT_EQ(testing::all_grids(store).size(), 2U)
         << "the pinned grid and the known station's grid stay";
-    EXPECT_FALSE(fs::exists(cache_ / invented(1))) << "empty directories go";
+    EXPECT_FALSE(fs::exists(cache_ / invented(1))) << "empty directories are removed";
 }
 
 TEST_F(OthersGridsTest, TheyGoByAgeWithoutAnyBudget) {

@@ -113,7 +113,7 @@ TEST_F(RollingStoreTest, EachDomainHasItsOwnBudgetAndAllHaveOne) {
     EXPECT_THAT(grids(store), ElementsAre("A+3", "B+4", "B+5", "B+6", "B+7"));
     ASSERT_TRUE(commit(store, "B", 8));
     EXPECT_THAT(grids(store), ElementsAre("A+3", "B+5", "B+6", "B+7", "B+8"))
-        << "the newest of A stays";
+        << "the newest grid of A stays";
 }
 
 TEST_F(RollingStoreTest, AFullCacheDoesNotKeepWhatWouldBeTheFirstToGo) {

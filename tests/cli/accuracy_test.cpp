@@ -118,7 +118,8 @@ TEST(Accuracy, PrintsALadderForARealVolume) {
         }
         if (row["name"] == "nearest" && row["step"] == "chain") {
             EXPECT_GT(row["value_p99_db"].get<double>(), 1);
-            EXPECT_GT(row["position_max_m"].get<double>(), 10) << "refraction";
+            EXPECT_GT(row["position_max_m"].get<double>(), 10)
+                << "the cheapest chain leaves off refraction";
         }
     }
     EXPECT_EQ(rungs["frame"], 3);
@@ -209,7 +210,7 @@ TEST(Accuracy, PrintsALadderOfDealiasing) {
     EXPECT_TRUE(at_12["anchored"]["pareto"].get<bool>());
     EXPECT_TRUE(at_12["off"]["jumps"].is_null());
     ASSERT_EQ(real.size(), 4U);
-    EXPECT_TRUE(real["anchored"]["wrong"].is_null()) << "it is the truth";
+    EXPECT_TRUE(real["anchored"]["wrong"].is_null()) << "anchored itself is the truth";
     EXPECT_GT(real["off"]["jumps"], 10'000);
     EXPECT_LT(real["anchored"]["jumps"], 1'000);
     const std::string svg = testing::file_text(plot);
@@ -296,7 +297,8 @@ TEST_F(Effects, ATolerancePicksAndSaysWhatItPicked) {
                                         "--tolerance", "9 km, 20 dB", "--explain", "--json"},
                                        small));
     ASSERT_EQ(ran.status, 0) << ran.err;
-    EXPECT_NE(ran.err.find("antenna_jitter"), std::string::npos) << "the explanation";
+    EXPECT_NE(ran.err.find("antenna_jitter"), std::string::npos)
+        << "the explanation names this effect";
     const auto json = nlohmann::json::parse(ran.out);
     EXPECT_NE(json["predicted_error"].get<std::string>().find("dB"), std::string::npos);
     EXPECT_NE(json["effects"].get<std::string>().find("frame: "), std::string::npos);
@@ -346,7 +348,8 @@ TEST_F(Effects, AProfileOfOnesOwnTurnsRefractionOn) {
         return json_of(ran)["beam_model"].get<std::string>();
     };
     EXPECT_EQ(beam_of(gridded({})), "4/3 earth");
-    EXPECT_EQ(beam_of(gridded({"--profile", "exponential"})), "4/3 earth") << "the default";
+    EXPECT_EQ(beam_of(gridded({"--profile", "exponential"})), "4/3 earth")
+        << "the exponential profile is the default";
     for (const auto& options : std::vector<std::vector<std::string>>{
              {}, {"--effect", "refraction=auto"}, {"--explain"}, {"--method", "nearest"}}) {
         const ProgramResult ran = gridded(with({"--profile", sounding}, options));

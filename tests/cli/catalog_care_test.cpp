@@ -68,7 +68,7 @@ TEST_F(CatalogCare, GetDoesNotFollowALinkInAFilesPlace) {
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find(raw(first_).native() + ": is a symbolic link"), std::string::npos)
             << ran.err;
-        EXPECT_EQ(files_in(out), 1U) << "the other file";
+        EXPECT_EQ(files_in(out), 1U) << "only the other file is copied";
     }
 }
 
@@ -91,7 +91,7 @@ TEST_F(CatalogCare, GetDoesNotGiveOtherContentsOfTheSameSize) {
         const auto ran = get(out, decode);
         EXPECT_EQ(ran.status, 1);
         EXPECT_NE(ran.err.find("is not the file that was cataloged"), std::string::npos) << ran.err;
-        EXPECT_EQ(files_in(out), 1U) << "the other file";
+        EXPECT_EQ(files_in(out), 1U) << "only the other file is decoded";
     }
 }
 

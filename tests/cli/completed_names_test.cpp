@@ -37,7 +37,7 @@ TEST_F(CompletedNames, AreTheDomainsOfTheCacheOnTheLine) {
     EXPECT_THAT(completed_names("domains", {"stormcellar", "frame", "--cache", cache}), domains);
     EXPECT_THAT(completed_names("domains", {"stormcellar", "--cache=" + cache}), domains);
     EXPECT_THAT(completed_names("domains", {"stormcellar", "--cache", "=", cache, "K"}), domains)
-        << "words as bash splits them";
+        << "bash splits words at an equals sign";
     EXPECT_THAT(completed_names("domains", {"stormcellar", "--cache", cache + "/none"}), IsEmpty());
     EXPECT_THAT(completed_names("colors", {"--cache", cache}), IsEmpty());
 }

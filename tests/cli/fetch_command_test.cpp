@@ -56,7 +56,8 @@ TEST_F(FetchCommand, WhatMakesNoSenseIsBadUsage) {
     EXPECT_EQ(fetch({"--stations", "KTLX", "--bounds=-100,34,-97,36"}).status, 2);
     EXPECT_EQ(fetch({"--stations", "KT"}).status, 2);
     EXPECT_EQ(fetch({"--bounds=0,0,1,1"}).status, 2) << "no station is within these bounds";
-    EXPECT_EQ(run({"fetch", "--stations", "KTLX", "-o", "/tmp/x"}).status, 2) << "no times";
+    EXPECT_EQ(run({"fetch", "--stations", "KTLX", "-o", "/tmp/x"}).status, 2)
+        << "the times are missing";
 }
 
 }  // namespace

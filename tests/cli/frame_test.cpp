@@ -150,7 +150,7 @@ TEST_F(Frame, NonsenseIsBadUsage) {
     EXPECT_EQ(run("--domain KBGM --time noon -o " + out("a.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --tilt 100 -o " + out("a.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --width 100 -o " + out("a.png")), exit_bad_usage)
-        << "too small for labels";
+        << "the picture is too small for labels";
     EXPECT_EQ(run("--domain KBGM --width 100 --no-labels -o " + out("a.png")), exit_done);
 }
 
@@ -255,7 +255,7 @@ TEST_F(Frame, ProbesAPlaceOrAPixel) {
 }
 
 TEST_F(Frame, NonsensicalProbesAreBadUsage) {
-    EXPECT_EQ(run("--domain KBGM"), exit_bad_usage) << "neither picture nor probe";
+    EXPECT_EQ(run("--domain KBGM"), exit_bad_usage) << "there is neither a picture nor a probe";
     EXPECT_EQ(run("--domain KBGM --probe 1,2 --probe-at 1,2"), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --probe 1"), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --probe 1.5,2"), exit_bad_usage);
@@ -267,7 +267,8 @@ TEST_F(Frame, NonsensicalProbesAreBadUsage) {
             << pixel;
     }
     EXPECT_EQ(run("--domain KBGM --probe 1,2"), exit_bad_usage) << "the pixel is in the header";
-    EXPECT_EQ(run("--domain KBGM --probe-at 10,10"), exit_bad_usage) << "outside the grid";
+    EXPECT_EQ(run("--domain KBGM --probe-at 10,10"), exit_bad_usage)
+        << "the place is outside the grid";
 }
 
 }  // namespace

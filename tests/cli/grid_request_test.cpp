@@ -111,7 +111,7 @@ TEST(GridRequest, ParallelsAreGivenOrThoseOfTheCentre) {
     const auto own = spec_for("--projection lcc", 39, -97);
     ASSERT_TRUE(own);
     EXPECT_EQ(own->parallels_deg, (std::array<double, 2>{39, 39}));
-    EXPECT_FALSE(spec_for("--projection lcc", 0, -97)) << "no cone about the equator";
+    EXPECT_FALSE(spec_for("--projection lcc", 0, -97)) << "a cone cannot touch the equator";
     EXPECT_TRUE(spec_for("--projection lcc --parallels 10,20", 0, -97));
 }
 

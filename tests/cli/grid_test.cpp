@@ -34,7 +34,7 @@ class GridTest : public ::testing::Test {
 
 TEST_F(GridTest, BadUsageIsExit2AndNamed) {
     EXPECT_EQ(grid({}).status, 2);
-    EXPECT_EQ(grid({"file"}).status, 2) << "no output";
+    EXPECT_EQ(grid({"file"}).status, 2) << "the output is missing";
     expect_usage({"a", "--overlap", "mean"}, "--overlap needs several FILEs");
     expect_usage({"a", "--time-method", "blend"}, "--time-method needs several FILEs");
     expect_usage({"a", "b", "--overlap", "min"}, "--overlap takes one of");

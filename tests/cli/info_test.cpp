@@ -75,7 +75,7 @@ TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     const ProgramResult ran = info({file, "--json"});
     EXPECT_EQ(ran.status, 0);
     const auto json = nlohmann::json::parse(ran.out);
-    EXPECT_EQ(json.at("site"), "KTLX") << "from the file's name";
+    EXPECT_EQ(json.at("site"), "KTLX") << "the file's name gives the site";
     EXPECT_EQ(json.at("complete"), false);
     ASSERT_FALSE(json.at("problems").empty());
     const auto& problem = json.at("problems").front();
@@ -102,7 +102,7 @@ TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
     EXPECT_EQ(json.at("written"), to);
     json.erase("written");
     EXPECT_EQ(json, nlohmann::json::parse(info({file, "--json"}).out));
-    EXPECT_EQ(*read_file(to), first) << "replaced by the same bytes";
+    EXPECT_EQ(*read_file(to), first) << "the file was replaced by the same bytes";
 }
 
 TEST_F(InfoTest, WritesTheDealiasedVelocityIfAsked) {
@@ -125,7 +125,7 @@ TEST_F(InfoTest, WritesTheDealiasedVelocityIfAsked) {
     EXPECT_NE(unknown.err.find("it must be off, auto, profile, region or anchored"),
               std::string::npos)
         << unknown.err;
-    EXPECT_EQ(info({file, "--dealias", "region"}).status, 2) << "needs --to";
+    EXPECT_EQ(info({file, "--dealias", "region"}).status, 2) << "the option needs --to";
 }
 
 TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
@@ -160,7 +160,7 @@ TEST_F(InfoTest, RefusesATargetBeforeItDecodes) {
             << "the file was decoded before --to was checked: " << ran.err;
         return ran.status;
     };
-    EXPECT_EQ(refused(file), 2) << "the input file itself";
+    EXPECT_EQ(refused(file), 2) << "the output is the input file itself";
     EXPECT_EQ(refused(directory_.path()), 1);
     EXPECT_EQ(refused(directory_ / "missing" / "x.nc"), 1);
     EXPECT_EQ(refused("/dev/null"), 1);

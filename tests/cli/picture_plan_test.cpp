@@ -29,7 +29,7 @@ TEST(PlanPicture, ABudgetThatNothingKeepsIsUnmet) {
     EXPECT_TRUE(met) << met.error().message;
     const auto slip = planned("soon");
     ASSERT_FALSE(slip);
-    EXPECT_EQ(slip.error().code, ErrorCode::bad_argument) << "no budget at all";
+    EXPECT_EQ(slip.error().code, ErrorCode::bad_argument) << "the text is not a budget";
 }
 
 }  // namespace

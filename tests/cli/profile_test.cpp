@@ -93,7 +93,7 @@ TEST_F(ProfileTest, DrawsAHodographOfOneVolume) {
     EXPECT_EQ(number_at(png, 20), 400U);
     EXPECT_EQ(profile({volume(tornadoes), "--plot", plot, "--width", "500", "--height", "400"}).out,
               ran.out);
-    EXPECT_EQ(*read_file(plot), png) << "the same bytes";
+    EXPECT_EQ(*read_file(plot), png) << "the plot has the same bytes again";
     const ProgramResult to_output = profile({volume(tornadoes), "--plot", "-"});
     EXPECT_EQ(to_output.out.substr(1, 3), "PNG");
 }

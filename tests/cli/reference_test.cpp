@@ -54,7 +54,7 @@ TEST_F(Reference, HoldsWhatTheParserKnows) {
     EXPECT_TRUE(option("-o").is_required);
     EXPECT_THAT(option("--as").choices, ElementsAre("whole", "growing"));
     EXPECT_EQ(option("--last").range, "1 to 9");
-    EXPECT_EQ(option("--last").value, "N") << "and not UINT";
+    EXPECT_EQ(option("--last").value, "N") << "the value is not called UINT";
     EXPECT_EQ(option("--scene").value, "FILE");
     EXPECT_EQ(option("--domain").kept, Kept::domains);
     EXPECT_EQ(option("--domain").place, "DOMAIN");

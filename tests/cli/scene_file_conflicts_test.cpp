@@ -115,7 +115,7 @@ TEST_F(SceneFileTest, PanelsAreForFrameAlone) {
     write("[picture]\nproduct = \"composite\"\npanels = [\"REF\"]\n");
     const auto drawn = with_scene(frame);
     EXPECT_EQ(drawn.status, exit_done) << drawn.err;
-    EXPECT_THAT(drawn.out, HasSubstr("\"width\": 1280")) << "the size of panels";
+    EXPECT_THAT(drawn.out, HasSubstr("\"width\": 1280")) << "panels have this usual size";
     const auto one = with_scene(frame + " --moment REF");
     EXPECT_EQ(one.status, exit_done) << one.err;
     EXPECT_THAT(one.out, HasSubstr("\"width\": 796")) << "a typed option overrides the file";

@@ -74,7 +74,7 @@ TEST(Status, OfAKilledDaemonIsWhatItsFileSays) {
     const json document = json::parse(after.out);
     EXPECT_EQ(document["source"]["answered"], false);
     EXPECT_TRUE(document["source"]["age_s"].is_number());
-    EXPECT_EQ(document["state"], "running") << "the last reported state";
+    EXPECT_EQ(document["state"], "running") << "the file keeps the last reported state";
     EXPECT_EQ(status({"--socket", daemon.root() / "state/status.sock"}).status, 1);
     // A daemon starts although a killed daemon has left its socket behind.
     daemon.start();

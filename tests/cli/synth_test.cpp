@@ -77,7 +77,7 @@ TEST_F(Synth, MistakesAreNamed) {
     const auto missing = run({"synth", at("none.toml"), "-o", at("volumes")});
     EXPECT_EQ(missing.status, 1);
     EXPECT_THAT(missing.err, HasSubstr("none.toml"));
-    EXPECT_EQ(run({"synth", scene()}).status, 2) << "no directory";
+    EXPECT_EQ(run({"synth", scene()}).status, 2) << "the directory is missing";
     EXPECT_FALSE(fs::exists(at("volumes")));
 }
 
@@ -142,7 +142,7 @@ TEST_F(Synth, ReplayMakesChunksWithFaultsAndNamesEachOne) {
     }
     EXPECT_GT(dropped, 0U);
     const auto again = nlohmann::json::parse(play("second").out);
-    EXPECT_EQ(again["faults"], report["faults"]) << "the same seed";
+    EXPECT_EQ(again["faults"], report["faults"]) << "the same seed gives the same faults";
     fs::create_directory(at("text"));
     const auto text = run({"replay", at("volumes"), at("text"), "--interval", "0", "--as",
                            "growing", "--faults", "repeat=1"});

@@ -67,7 +67,7 @@ TEST_F(CacheKeeperTest, RollsAtOnceThenEveryFiveSecondsAndTellsNews) {
     keeper_.poll(now_, budgets_);
     usage = next_news();
     ASSERT_TRUE(usage);
-    EXPECT_EQ(usage->budget_bytes, 7U) << "a reload's budgets count";
+    EXPECT_EQ(usage->budget_bytes, 7U) << "the roll uses the budgets of the reload";
     now_ += CacheKeeper::period;
     EXPECT_FALSE(keeper_.poll(now_, budgets_));
     ASSERT_TRUE(has_ended(3));

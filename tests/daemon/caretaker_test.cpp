@@ -43,7 +43,8 @@ TEST_F(CaretakerTest, RestsWhileThereIsNothingToDo) {
                             [](pipeline::PairReport) {}});
     ASSERT_TRUE(testing::eventually([&] { return asked >= 3; }));
     for (int i = 0; i < 1000; ++i)
-        EXPECT_FALSE(keeper.pulse().since()) << "files come first";
+        EXPECT_FALSE(keeper.pulse().since())
+            << "the caretaker rests while files are to be ingested";
     const SteadyTime before = std::chrono::steady_clock::now();
     idle = true;
     EXPECT_TRUE(testing::eventually([&] {

@@ -47,7 +47,8 @@ TEST(LineLimiter, AFloodOfOneStationLeavesTheOthersAlone) {
     LineLimiter limiter;
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KTLX", 1254, t0), 20);
     EXPECT_EQ(allowed_of(limiter, Event::rejected, "KBGM", 5, t0), 5);
-    EXPECT_EQ(allowed_of(limiter, Event::no_moment, "KTLX", 5, t0), 5) << "another kind of event";
+    EXPECT_EQ(allowed_of(limiter, Event::no_moment, "KTLX", 5, t0), 5)
+        << "another kind of event has its own limit";
     EXPECT_TRUE(limiter.take_held_back(t0 + milliseconds{59'999}).empty());
     const auto held = limiter.take_held_back(t0 + seconds{60});
     ASSERT_EQ(held.size(), 1U);

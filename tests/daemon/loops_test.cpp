@@ -75,7 +75,7 @@ TEST_F(Loops, AVolumeThatComesIsInTheLoop) {
     EXPECT_TRUE(is_gone(loop));
     EXPECT_EQ(daemon_.status()["loops"]["running"], 0);
     for (const auto& entry : fs::directory_iterator(daemon_.root() / "loops"))
-        EXPECT_EQ(entry.path(), output()) << "was left behind";
+        EXPECT_EQ(entry.path(), output()) << "the file was left behind";
 }
 
 TEST_F(Loops, ThatOneWaitsForItsFirstGridIsSaidOnce) {
@@ -152,7 +152,7 @@ TEST(CheckConfig, LooksIntoTheLoopsScenes) {
     const auto good = check("[picture]\nproduct = \"composite\"\n", loop, path);
     EXPECT_EQ(good.status, 0) << good.err;
     EXPECT_TRUE(good.out.ends_with("c.toml: ok\n")) << good.out;
-    EXPECT_FALSE(fs::exists(directory / "gone")) << "nothing is made";
+    EXPECT_FALSE(fs::exists(directory / "gone")) << "the check makes no directory";
     const std::string gone = (directory / "gone").native();
     EXPECT_NE(good.err.find("stormcellard: note: [[loop]] a: " + gone +
                             "/a.webp: there is no directory " + gone + " (yet)"),

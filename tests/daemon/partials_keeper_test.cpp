@@ -274,7 +274,7 @@ TEST_F(PartialsKeeperTest, OtherFilesAreNotLookedAt) {
     bring("north", first_of_all);
     EXPECT_TRUE(testing::eventually([&] { return is_kept(other) && north().taken > 0; }));
     EXPECT_TRUE(is_scanned_again(2));
-    EXPECT_EQ(north().taken, 1U) << "only the last partial";
+    EXPECT_EQ(north().taken, 1U) << "only the last partial is taken";
     EXPECT_EQ(north().refused, 0U);
 }
 

@@ -134,7 +134,7 @@ TEST_F(ReadyJobsTest, ClassesHaveTheirTurnsAndNoneStandsStill) {
     // eight jobs of "going on", four of "fresh", one of "others"
     const std::string round = "ooooooooffffo";
     EXPECT_EQ(kinds, round + round);
-    EXPECT_EQ(next(), "on16") << "the next round";
+    EXPECT_EQ(next(), "on16") << "the next round begins";
 }
 
 TEST_F(ReadyJobsTest, NamesThatNobodyKnowsDelayNoKnownStation) {

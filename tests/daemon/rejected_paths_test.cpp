@@ -20,8 +20,10 @@ TEST(RejectedPaths, APathIsNewsOnceForAReason) {
     RejectedPaths paths;
     EXPECT_TRUE(paths.is_news("/d/a", rejected("not a Level II file")));
     EXPECT_FALSE(paths.is_news("/d/a", rejected("not a Level II file")));
-    EXPECT_TRUE(paths.is_news("/d/b", rejected("not a Level II file"))) << "another file";
-    EXPECT_TRUE(paths.is_news("/d/a", rejected("record 3 is damaged"))) << "another text";
+    EXPECT_TRUE(paths.is_news("/d/b", rejected("not a Level II file")))
+        << "the path is of another file";
+    EXPECT_TRUE(paths.is_news("/d/a", rejected("record 3 is damaged")))
+        << "the reason has another text";
     EXPECT_FALSE(paths.is_news("/d/a", rejected("record 17 is damaged")))
         << "only a number in the text differs";
     EXPECT_TRUE(paths.is_news("/d/a", rejected("record 17 is damaged", ErrorCode::truncated)));

@@ -75,7 +75,7 @@ TEST(Schedule, WhatIsOfferedWhileItRunsIsLookedAtOnceMore) {
     EXPECT_EQ(schedule.offer(job("a")), Offered::merged);
     EXPECT_EQ(next_path(schedule, t0), "") << "a file must not run twice at once";
     schedule.finished("a", t0 + seconds{2});
-    EXPECT_EQ(next_path(schedule, t0 + seconds{1}), "") << "not before the requested time";
+    EXPECT_EQ(next_path(schedule, t0 + seconds{1}), "") << "the requested time has not come";
     EXPECT_EQ(schedule.next_time(), t0 + seconds{2});
     EXPECT_EQ(next_path(schedule, t0 + seconds{2}), "a");
     schedule.finished("a");

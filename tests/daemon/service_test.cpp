@@ -227,7 +227,7 @@ TEST_F(ServiceTest, ScansWhenEventsWereLost) {
     stop();
     std::vector<std::string> calls = sink_->calls();
     std::sort(calls.begin(), calls.end());
-    EXPECT_EQ(std::unique(calls.begin(), calls.end()), calls.end()) << "each file once";
+    EXPECT_EQ(std::unique(calls.begin(), calls.end()), calls.end()) << "each file is ingested once";
     EXPECT_GE(status()["overflows"], 1);
 }
 

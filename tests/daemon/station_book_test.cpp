@@ -95,7 +95,7 @@ TEST(StationBook, ReplayedDataAreCountedApartFromTheTimings) {
              volume_start + hours{1} + seconds{1});
     EXPECT_EQ(state.antenna_to_cache.count(), 2U);
     EXPECT_EQ(state.not_live, 1U);
-    EXPECT_EQ(state.last_antenna_s, 3601) << "the number is kept";
+    EXPECT_EQ(state.last_antenna_s, 3601) << "the book keeps the last number";
     EXPECT_FALSE(is_live(*state.last_antenna_s));
     EXPECT_TRUE(is_live(-600));
     EXPECT_FALSE(is_live(-601));

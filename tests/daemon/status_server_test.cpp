@@ -261,7 +261,7 @@ TEST_F(StatusServerTest, APortAnswersNobodyWhoMeansAnotherHost) {
     EXPECT_EQ(status_of("Host: evil.example\r\n"), "421");
     EXPECT_EQ(status_of("hOST: evil.example\r\n"), "421");
     EXPECT_EQ(status_of(fmt::format("Host: evil.example:{}\r\n", options.http_port)), "421");
-    EXPECT_EQ(status_of("Host: localhost:1\r\n"), "200") << "through a tunnel";
+    EXPECT_EQ(status_of("Host: localhost:1\r\n"), "200") << "the request came through a tunnel";
     EXPECT_EQ(status_of("Host:\r\n"), "421");
     EXPECT_EQ(status_of(with_port + "Host: evil.example\r\n"), "421")
         << "one of two Host fields is foreign";

@@ -252,7 +252,7 @@ TEST(StatusBook, PairsOfSitesStandAsTheyWereComparedLast) {
     EXPECT_EQ(sites[0]["time_s"], (nlohmann::json{{"untold", "the motion is not known"}}));
     EXPECT_EQ(sites[0]["cells"], 1234);
     EXPECT_EQ(sites[0]["faults"].size(), 1U);
-    EXPECT_EQ(sites[1]["bias_db"]["value"], 1) << "the last report";
+    EXPECT_EQ(sites[1]["bias_db"]["value"], 1) << "the last report counts";
     EXPECT_TRUE(sites[1]["faults"].empty());
 }
 

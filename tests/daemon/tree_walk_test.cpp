@@ -102,7 +102,7 @@ TEST(TreeWalk, PathsThatNoCallTakesAreLeftOut) {
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->files.size(), 1U);
     const bool too_long = path.native().size() + 255 >= most_path_bytes;
-    EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "reported once for the directory";
+    EXPECT_EQ(seen->problems.size(), too_long ? 1U : 0U) << "the directory is reported once";
 }
 
 TEST(TreeWalk, OnlyItsOwnRootMayBeALink) {

@@ -49,7 +49,7 @@ TEST_F(FewWatches, WithoutWatchesTheRestIsPolled) {
     expect_polling();
     const std::string log = daemon_.log();
     EXPECT_EQ(log.find("no inotify watch is left"), log.rfind("no inotify watch is left"))
-        << "reported once";
+        << "the lack of watches is reported once";
 }
 
 TEST_F(FewWatches, WithoutAnInstanceEverythingIsPolled) {

@@ -419,12 +419,12 @@ TEST_F(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEveryth
     events_.most = 2;
     ASSERT_TRUE(watcher_.scan());
     EXPECT_TRUE(watcher_.is_blind());
-    ASSERT_EQ(notes_.problems.size(), 1U) << "reported for the first directory";
+    ASSERT_EQ(notes_.problems.size(), 1U) << "the first directory is reported";
     EXPECT_EQ(notes_.problems[0].code, ErrorCode::no_space);
     EXPECT_EQ(notes_.taken(), (std::set<std::string>{"a/file", "b/file", "c/file"}));
     events_.watched.clear();
     ASSERT_TRUE(watcher_.scan());
-    EXPECT_EQ(notes_.problems.size(), 1U) << "reported once";
+    EXPECT_EQ(notes_.problems.size(), 1U) << "the lack of watches is reported once";
     events_.watched.clear();
     events_.most = 1000;
     ASSERT_TRUE(watcher_.scan());
@@ -432,7 +432,7 @@ TEST_F(ForcedWatcher, ReachingTheLimitOfWatchesIsSaidAndTheScanStillFindsEveryth
     events_.watched.clear();
     events_.most = 2;
     ASSERT_TRUE(watcher_.scan());
-    EXPECT_EQ(notes_.problems.size(), 2U) << "reported again";
+    EXPECT_EQ(notes_.problems.size(), 2U) << "the lack of watches is reported again";
 }
 
 TEST_F(ForcedWatcher, SilentDirectoriesAreWatchedAllTheSameAndSaidOnce) {

@@ -176,7 +176,7 @@ TEST(CfradialLayout, TheOneAxisBeginsWithTheNearestGate) {
     EXPECT_EQ(layout->axes[0].first_gate_m, 625);
     EXPECT_EQ(place_gates(layout->axes[0], ref).first, 0U);
     EXPECT_EQ(place_gates(layout->axes[0], doppler).first, 6U);
-    EXPECT_EQ(layout->axes[0].gates, 8U) << "625 to 2375 m";
+    EXPECT_EQ(layout->axes[0].gates, 8U) << "the axis goes from 625 to 2375 m";
 }
 
 TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
@@ -189,13 +189,13 @@ TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
         return layout ? layout->axes.size() : 0;
     };
     EXPECT_EQ(axes(2125, 500), 1U);
-    EXPECT_EQ(axes(2375, 250), 1U) << "begins a gate farther";
-    EXPECT_EQ(axes(2000, 250), 2U) << "begins half a gate nearer";
+    EXPECT_EQ(axes(2375, 250), 1U) << "the gates begin one gate farther";
+    EXPECT_EQ(axes(2000, 250), 2U) << "the gates begin half a gate nearer";
     EXPECT_EQ(axes(2125, 300), 2U) << "300 m is no multiple of 250 m";
-    EXPECT_EQ(axes(2125, 2250), 2U) << "nine times 250 m";
+    EXPECT_EQ(axes(2125, 2250), 2U) << "2250 m is nine times 250 m";
     EXPECT_EQ(axes(2125, 0), 2U);
     EXPECT_EQ(axes(2125, -250), 2U);
-    EXPECT_EQ(axes(2125 + 250 * 9000, 250), 2U) << "thousands of gates away";
+    EXPECT_EQ(axes(2125 + 250 * 9000, 250), 2U) << "the gates begin thousands of gates away";
 }
 
 TEST(CfradialLayout, MoreKindsThanAnyRadarHasAreADamagedFile) {

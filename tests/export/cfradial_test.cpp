@@ -209,7 +209,7 @@ TEST_F(Cfradial, SweepsAndRadialsAreWhereTheirIndicesSay) {
     const double fill = static_cast<double>(NC_FILL_FLOAT);
     EXPECT_EQ(reader.values("nyquist_velocity", 5), (Values{fill, fill, fill, fill, 27.5}));
     EXPECT_EQ(reader.values("radar_measured_sky_noise", 5)[0], -80.5);
-    EXPECT_FALSE(reader.has_variable("unambiguous_range")) << "no radial has one";
+    EXPECT_FALSE(reader.has_variable("unambiguous_range")) << "no radial has an unambiguous range";
     EXPECT_EQ(reader.values("volume_number", 1), Values{116});
     EXPECT_EQ(reader.number(nullptr, "scan_id"), 212);
 }
@@ -244,10 +244,12 @@ TEST_F(Cfradial, AVolumeWithoutRadialsIsAFileWithoutRadials) {
     EXPECT_EQ(reader.length("time"), 0U);
     EXPECT_EQ(reader.length("sweep"), 0U);
     EXPECT_EQ(reader.length("range"), 0U);
-    EXPECT_EQ(reader.text("time", "units"), "seconds since 2022-03-17T00:08:42Z") << "header time";
+    EXPECT_EQ(reader.text("time", "units"), "seconds since 2022-03-17T00:08:42Z")
+        << "the header gives this time";
     EXPECT_EQ(reader.text(nullptr, "volume"), "partial");
     EXPECT_EQ(reader.text(nullptr, "notes"), "metadata without radials");
-    EXPECT_NEAR(reader.values("latitude", 1)[0], 35.333, 0.01) << "from the station table";
+    EXPECT_NEAR(reader.values("latitude", 1)[0], 35.333, 0.01)
+        << "the station table gives the latitude";
 }
 
 TEST_F(Cfradial, AVolumeOfNobodyKnowsWhereIsWritten) {

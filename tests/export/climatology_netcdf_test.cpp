@@ -94,7 +94,7 @@ TEST(ClimatologyNetcdf, HasEachCellWhereTheyWereCounted) {
     EXPECT_EQ(frequency.at(0), 0) << "seen at 1000 m, and never an echo";
     EXPECT_EQ(frequency.at(1), fill);
     EXPECT_EQ(frequency.at(2), 1) << "0 dBZ at 2000 m in both frames";
-    EXPECT_EQ(frequency.at(4 * 10 + 2), 0.5) << "50 dBZ in one frame";
+    EXPECT_EQ(frequency.at(4 * 10 + 2), 0.5) << "one of two frames has 50 dBZ";
     EXPECT_THAT(file.text("cell_maximum", "ancillary_variables"), HasSubstr("cell_not_seen"));
 }
 

@@ -251,7 +251,8 @@ TEST_F(GridNetcdf, OnlyDerivedMomentsHaveTheStateAmbiguous) {
     Reader reader(path_);
     expect_cells(reader, grids[0], "VEL", "VEL_status");
     expect_cells(reader, grids[1], "VELD", "VELD_status");
-    EXPECT_EQ(reader.values("VELD_status", grids[1].spec.cell_count())[0], 5) << "ambiguous";
+    EXPECT_EQ(reader.values("VELD_status", grids[1].spec.cell_count())[0], 5)
+        << "state 5 is ambiguous";
     using Numbers = std::vector<double>;
     EXPECT_EQ(reader.numbers("VELD_status", "flag_values"), (Numbers{0, 1, 2, 3, 5}));
     EXPECT_EQ(reader.text("VELD_status", "flag_meanings"),

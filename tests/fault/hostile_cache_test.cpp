@@ -22,7 +22,8 @@ class ProtectedNewest : public HostileCases {
         const auto stand = std::count_if(history.begin(), history.end(), [&](UtcTime time) {
             return has_whole_grid(daemon_.cache(), "KTLX", time);
         });
-        EXPECT_EQ(stand, static_cast<std::ptrdiff_t>(history.size())) << "grids of real history";
+        EXPECT_EQ(stand, static_cast<std::ptrdiff_t>(history.size()))
+            << "grids of real history were evicted";
     }
     // Delivers volumes whose grids take some 300 kB each.
     void put_invented_sites(std::size_t count) {

@@ -101,7 +101,7 @@ TEST_F(FetchTest, BringsAllOfTheStationAndTimesWithTheirTimes) {
     EXPECT_EQ(report->fetched, 25U);
     EXPECT_EQ(report->without_radials, 1U);
     EXPECT_THAT(report->failures, IsEmpty());
-    EXPECT_EQ(bucket_.asked("2017/01/01/KTLX/"), 3U) << "three pages";
+    EXPECT_EQ(bucket_.asked("2017/01/01/KTLX/"), 3U) << "the list has three pages";
     EXPECT_EQ(bucket_.asked(key(first_ + "_MDM")), 0U);
     expect_all_there();
     struct stat facts {};

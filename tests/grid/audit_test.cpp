@@ -91,7 +91,7 @@ TEST(Audit, AFieldThatCellsHoldAuditsToTheQuantisation) {
     EXPECT_GT(row.count, 3000U);
     EXPECT_EQ(row.count, row.sampled);
     EXPECT_LT(row.rms, 0.205) << "rounding of both: sqrt(2) * 0.5 / sqrt(12)";
-    EXPECT_GT(row.rms, 0.144) << "rounding of the gates alone";
+    EXPECT_GT(row.rms, 0.144) << "the gates alone are rounded by this";
     EXPECT_NEAR(row.mean, 0, 0.01);
 }
 
@@ -174,7 +174,8 @@ TEST(Audit, AmbiguousGatesAreCountedAndEnterNoValue) {
     };
     const auto ambiguous = at(CellStatus::ambiguous, CellStatus::ambiguous);
     EXPECT_GT(ambiguous, 500U);
-    EXPECT_LT(at(CellStatus::ambiguous, CellStatus::value), ambiguous / 20) << "at the borders";
+    EXPECT_LT(at(CellStatus::ambiguous, CellStatus::value), ambiguous / 20)
+        << "only cells at the borders disagree";
     EXPECT_GT(at(CellStatus::value, CellStatus::value), 2 * ambiguous);
     const AuditRow row = total(found);
     EXPECT_GT(row.same_status, ambiguous);

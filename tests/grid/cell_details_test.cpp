@@ -339,7 +339,7 @@ TEST(FrameTime, OfAGridNamesTheSweepsThatItIsMadeOf) {
     const auto newest = grid_of(volume, site, spec, options);
     ASSERT_TRUE(newest);
     EXPECT_EQ(note_of(*newest, "2 sweeps at 0.5 degrees: the newest was taken, of 2021-07-29T"), 1);
-    EXPECT_EQ(note_of(*newest, "2 sweeps at"), 2) << "0.5 and 0.9 degrees";
+    EXPECT_EQ(note_of(*newest, "2 sweeps at"), 2) << "0.5 and 0.9 degrees have two sweeps each";
     options.repeats = GridderOptions::Repeats::nearest_in_time;
     options.frame_time = *volume.start_time() + std::chrono::seconds(5);
     const auto first = grid_of(volume, site, spec, options);

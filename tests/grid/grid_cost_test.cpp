@@ -65,7 +65,8 @@ TEST(TileSample, StrataHoldEveryTileWithinReachAndSpreadAlongTheArc) {
         std::set<std::pair<int, int>> places;
         for (const Tile& tile : stratum->tiles) {
             EXPECT_EQ(has_echo(scene, tile), stratum == &sample.with_echo);
-            EXPECT_TRUE(places.emplace(tile.first_x, tile.first_y).second) << "drawn twice";
+            EXPECT_TRUE(places.emplace(tile.first_x, tile.first_y).second)
+                << "a tile was drawn twice";
         }
         // Both pieces of 16 tiles have near and far tiles.
         for (const std::size_t first : {std::size_t{0}, std::size_t{16}}) {

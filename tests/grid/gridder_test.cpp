@@ -63,7 +63,8 @@ TEST(Gridder, NorthIsUpAndEastIsRight) {
 
 TEST(Gridder, TheConeOfSilenceIsNotSeen) {
     const Grid grid = make(make_volume({plan(0.5, 1), plan(10, 2), plan(19.5, 3)}));
-    EXPECT_EQ(status_at(grid, 0, 0, 0.5), CellStatus::not_seen) << "over the antenna";
+    EXPECT_EQ(status_at(grid, 0, 0, 0.5), CellStatus::not_seen)
+        << "no beam sees the air over the antenna";
     EXPECT_EQ(status_at(grid, 0, 0, 10), CellStatus::not_seen);
     EXPECT_EQ(status_at(grid, 10, 0, 3), CellStatus::value);
     EXPECT_EQ(status_at(grid, 10, 0, 5), CellStatus::not_seen);
@@ -177,7 +178,8 @@ TEST(Gridder, ReversedElevationsOfSomeRadialsAreSorted) {
     };
     ASSERT_LT(beam.over(arc_m, 0.6).height_m, 3500);
     ASSERT_GT(beam.over(arc_m, 0.8).height_m, 3500);
-    EXPECT_NEAR(value_at(grid, 75, 130, 3.5), expected(0.6, 0.8, 30, 10), 0.05) << "reversed";
+    EXPECT_NEAR(value_at(grid, 75, 130, 3.5), expected(0.6, 0.8, 30, 10), 0.05)
+        << "the sweeps have changed places";
     EXPECT_NEAR(value_at(grid, -75, 130, 3.5), expected(0.5, 0.9, 10, 30), 0.05);
 }
 

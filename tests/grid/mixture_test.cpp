@@ -59,7 +59,8 @@ TEST(Blend, NoEchoAndNotSeen) {
 TEST(Blend, FoldedNeedsTheLargestShare) {
     EXPECT_EQ(mix(folded, valued(20), 0.4F).status, CellStatus::range_folded);
     EXPECT_EQ(mix(folded, valued(20), 0.5F).status, CellStatus::value);
-    EXPECT_FLOAT_EQ(mix(folded, valued(20), 0.6F).value, 20) << "folded never enters a value";
+    EXPECT_FLOAT_EQ(mix(folded, valued(20), 0.6F).value, 20)
+        << "range folding never enters a value";
     EXPECT_EQ(mix(folded, quiet(0), 0.4F).status, CellStatus::range_folded);
     EXPECT_EQ(mix(folded, quiet(0), 0.5F).status, CellStatus::no_echo);
     EXPECT_EQ(mix(folded, unseen, 0.5F).status, CellStatus::range_folded);
@@ -117,7 +118,8 @@ TEST(Blend, VelocitiesOfDifferentCirclesAreNotAveraged) {
     const auto circle = Blending::nyquist_circle;
     EXPECT_EQ(mix(valued(-5, 8.4F), valued(25, 33.5F), 0.4F, circle).value, -5);
     EXPECT_EQ(mix(valued(-5, 8.4F), valued(25, 33.5F), 0.6F, circle).value, 25);
-    EXPECT_EQ(mix(valued(-25), valued(25), 0.4F, circle).value, -25) << "TDWR: Nyquist 0";
+    EXPECT_EQ(mix(valued(-25), valued(25), 0.4F, circle).value, -25)
+        << "a TDWR gives a Nyquist velocity of 0";
     EXPECT_EQ(mix(valued(-25), valued(25), 0.6F, circle).value, 25);
 }
 

@@ -123,7 +123,8 @@ TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
         auto mosaic = merge(domain, {}, {});
         ASSERT_TRUE(whole && mosaic);
         if (quantization != mosaic->cells.view().quantization) {
-            EXPECT_FALSE(update_in_place(*mosaic, partials.all(), {}, {})) << "other code steps";
+            EXPECT_FALSE(update_in_place(*mosaic, partials.all(), {}, {}))
+                << "the mosaic has other code steps";
             continue;
         }
         for (int x = 0; x < domain.nx; x += brick_edge) {

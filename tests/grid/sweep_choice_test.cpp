@@ -66,7 +66,8 @@ TEST(ChooseSweeps, OfRepeatedCutsTheNearestInTimeCountsWhereATimeIsGiven) {
     };
     EXPECT_EQ(indices(at(0)), (std::vector<std::size_t>{0, 1, 3}));
     EXPECT_EQ(indices(at(48.99)), (std::vector<std::size_t>{0, 1, 3}));
-    EXPECT_EQ(indices(at(49)), (std::vector<std::size_t>{2, 1, 3})) << "the later of both";
+    EXPECT_EQ(indices(at(49)), (std::vector<std::size_t>{2, 1, 3}))
+        << "the later sweep is as near as the first";
     EXPECT_EQ(indices(at(88.9)), (std::vector<std::size_t>{2, 1, 3}));
     EXPECT_EQ(indices(at(1e5)), (std::vector<std::size_t>{4, 1, 3}));
     EXPECT_EQ(at(0)[0].median_time, at_s(29));
@@ -257,7 +258,8 @@ TEST(AzimuthSpacing, IsStatedOrMeasured) {
     EXPECT_EQ(azimuth_spacing_deg({}, 0), 1);
     EXPECT_EQ(azimuth_spacing_deg({}, 0.5F), 0.5);
     EXPECT_EQ(azimuth_spacing_deg(std::vector<float>{10, 100}, 1), 2) << "the spacing is at most 2";
-    EXPECT_EQ(azimuth_spacing_deg(std::vector<float>{10, 10, 10}, 0), 1) << "never zero";
+    EXPECT_EQ(azimuth_spacing_deg(std::vector<float>{10, 10, 10}, 0), 1)
+        << "the spacing is never zero";
 }
 
 TEST(NormalAzimuth, WrapsWhatIsNearAndRefusesTheRest) {

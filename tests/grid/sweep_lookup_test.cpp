@@ -315,7 +315,8 @@ TEST(SweepLookup, MissingRadialsAreNotSeen) {
     EXPECT_FALSE(lookup->position({95, 50e3}));
     EXPECT_NE(lookup->at({89, 50e3}).status, CellStatus::not_seen);
     EXPECT_NE(lookup->at({101, 50e3}).status, CellStatus::not_seen);
-    EXPECT_EQ(lookup->at({180, 1e6}).status, CellStatus::not_seen) << "beyond the last gate";
+    EXPECT_EQ(lookup->at({180, 1e6}).status, CellStatus::not_seen)
+        << "the place is beyond the last gate";
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(OddVolumes, NegativeElevationsKeepTheirSign) {
         return decode_messages({message}).volume.sweeps.at(0).radials.at(0).elevation_deg;
     };
     EXPECT_FLOAT_EQ(of(wire::message_31(ray)), -4.66F);
-    EXPECT_NEAR(of(wire::message_1(ray)), -4.66F, 0.003) << "in steps of 0.0055 degrees";
+    EXPECT_NEAR(of(wire::message_1(ray)), -4.66F, 0.003) << "message 1 has steps of 0.0055 degrees";
 }
 
 TEST(OddVolumes, TimesMayRunBackwards) {

@@ -47,7 +47,7 @@ TEST(PictureDifference, AFewPixelsInOnePlaceAreFoundThere) {
     EXPECT_EQ(difference->tile_y, 24);
     EXPECT_FALSE(within(*difference));
     const Image shown = picture_of_difference(Image(160, 160, white), other);
-    EXPECT_GT(shown.at(44, 28)[0], shown.at(44, 28)[1] + 150) << "red";
+    EXPECT_GT(shown.at(44, 28)[0], shown.at(44, 28)[1] + 150) << "the difference is red";
     EXPECT_EQ(shown.at(100, 100), white);
 }
 

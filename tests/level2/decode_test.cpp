@@ -157,7 +157,7 @@ TEST(Decode, BombsStopAtTheLimit) {
               ErrorCode::unsupported);
     EXPECT_EQ(code_of(wire::gzip(wire::gzip(wire::gzip(wire::gzip(wire::gzip(plain)))))),
               ErrorCode::unsupported)
-        << "too many layers";
+        << "the file has too many layers";
 }
 
 TEST(Decode, ARecordOfAWholeVolumeIsReadBlockByBlock) {

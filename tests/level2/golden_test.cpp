@@ -44,14 +44,14 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& data, const std::st
             const auto path = data / folder / name;
             if (std::filesystem::exists(path)) return read_file(path).value();
         }
-        ADD_FAILURE() << "no file of this name";
+        ADD_FAILURE() << "the data have no file of this name";
         return {};
     }
     for (const auto& set : std::filesystem::directory_iterator(data / "chunks")) {
         if (name.starts_with("CHUNKS_" + set.path().filename().string() + "_"))
             return joined_files(set.path());
     }
-    ADD_FAILURE() << "no chunk set of this name";
+    ADD_FAILURE() << "the data have no chunk set of this name";
     return {};
 }
 

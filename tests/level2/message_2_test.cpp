@@ -110,7 +110,7 @@ TEST(Message2, EachBuildHasItsFields) {
         return status_of(numbers, halfwords);
     };
     const RdaStatus build_9 = of_build(90, 40);
-    EXPECT_FLOAT_EQ(build_9.build.value(), 9.0F) << "tenths before build 11.2";
+    EXPECT_FLOAT_EQ(build_9.build.value(), 9.0F) << "before build 11.2, the number is in tenths";
     EXPECT_FALSE(build_9.super_resolution);
     EXPECT_FALSE(build_9.avset);
     EXPECT_FALSE(build_9.vertical_correction_db);
@@ -141,7 +141,7 @@ TEST(Message2, LegacyRadarHasOtherFields) {
     }
     const RdaStatus status = status_of(numbers, 40, legacy_channel, legacy_day);
     EXPECT_TRUE(status.legacy);
-    EXPECT_FLOAT_EQ(status.horizontal_correction_db, -0.5F) << "quarters of a dB";
+    EXPECT_FLOAT_EQ(status.horizontal_correction_db, -0.5F) << "the number is in quarters of a dB";
     EXPECT_FALSE(status.build);
     EXPECT_FALSE(status.super_resolution);
     EXPECT_EQ(status.mode, RdaMode::maintenance);
@@ -156,9 +156,9 @@ TEST(Message2, LegacyRadarHasOtherFields) {
 
 TEST(Message2, ChannelAndDayTellLegacyRadarsFromTdwrs) {
     EXPECT_TRUE(is_legacy_rda(header_of(40, legacy_channel, legacy_day)));
-    EXPECT_TRUE(is_legacy_rda(header_of(40, 2, legacy_day))) << "redundant channel 2";
+    EXPECT_TRUE(is_legacy_rda(header_of(40, 2, legacy_day))) << "channel 2 of a redundant pair";
     EXPECT_FALSE(is_legacy_rda(header_of(40, 10, legacy_day)));
-    EXPECT_FALSE(is_legacy_rda(header_of(40, 2))) << "a TDWR of 2022";
+    EXPECT_FALSE(is_legacy_rda(header_of(40, 2))) << "the header is of a TDWR of 2022";
 }
 
 TEST(Message2, TroublesAreListedTheWorstFirst) {

@@ -98,12 +98,14 @@ wire::Bytes moment_with(unsigned gates, unsigned bits, float scale) {
 TEST(Message31, MomentsThatCannotBeAreRefused) {
     EXPECT_TRUE(read_message_31(body_of(moment_with(100, 8, 2))));
     EXPECT_TRUE(read_message_31(body_of(moment_with(50, 16, 2))));
-    EXPECT_FALSE(read_message_31(body_of(moment_with(101, 8, 2)))) << "beyond the end";
+    EXPECT_FALSE(read_message_31(body_of(moment_with(101, 8, 2)))) << "the gates go beyond the end";
     EXPECT_FALSE(read_message_31(body_of(moment_with(65535, 16, 2))));
-    EXPECT_FALSE(read_message_31(body_of(moment_with(50, 12, 2)))) << "word size";
+    EXPECT_FALSE(read_message_31(body_of(moment_with(50, 12, 2))))
+        << "gates of 12 bits do not exist";
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_FALSE(read_message_31(body_of(moment_with(50, 8, nan))));
-    EXPECT_TRUE(read_message_31(body_of(moment_with(0, 8, 2)))->moments().empty()) << "no gates";
+    EXPECT_TRUE(read_message_31(body_of(moment_with(0, 8, 2)))->moments().empty())
+        << "a moment without gates is left out";
 }
 
 TEST(Message31, ABlockOfALaterBuildIsSkippedAndGarbageIsNot) {
@@ -138,7 +140,7 @@ TEST(Message1, IsReadFieldByField) {
     EXPECT_EQ(message->radial.attenuation_db_per_km_thousandths, 12);
     ASSERT_EQ(message->moments().size(), 3);
     const MomentBlock& vel = message->moments()[1];
-    EXPECT_EQ(vel.first_gate_m, -375) << "signed";
+    EXPECT_EQ(vel.first_gate_m, -375) << "the range is a signed number";
     EXPECT_EQ(vel.gate_spacing_m, 250);
     EXPECT_EQ(vel.gates, 200);
     EXPECT_EQ(vel.scale, 1.0F) << "resolution 4 is 1 m/s";

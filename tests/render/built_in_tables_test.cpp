@@ -57,7 +57,7 @@ TEST(BuiltInTables, HaveTheWeatherServicesColors) {
     const ColorTable& velocity = default_color_table(Moment::vel);
     EXPECT_EQ(color_of(velocity, -64), (Rgba8{0x02, 0xFC, 0x02, 255}));
     EXPECT_EQ(color_of(velocity, -5.1F), (Rgba8{0x04, 0x72, 0x02, 255}));
-    EXPECT_EQ(color_of(velocity, 0), (Rgba8{0x80, 0x80, 0x80, 255})) << "at rest";
+    EXPECT_EQ(color_of(velocity, 0), (Rgba8{0x80, 0x80, 0x80, 255})) << "air at rest is gray";
     EXPECT_EQ(color_of(velocity, 60), (Rgba8{0xFE, 0, 0, 255}));
     EXPECT_EQ(color_of(default_color_table(Moment::sw), 4), (Rgba8{0, 0xBB, 0, 255}));
     EXPECT_EQ(color_of(default_color_table(Moment::rho), 0.965F), (Rgba8{0xFF, 0x2B, 0, 255}));

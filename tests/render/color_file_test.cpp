@@ -44,7 +44,8 @@ TEST(PalFile, BlendsAsTheFormatSays) {
     EXPECT_EQ(color_of(*table, 15), (Rgba8{10, 20, 30, 255}));
     EXPECT_EQ(color_of(*table, 20), (Rgba8{105, 60, 15, 255})) << "half way to the next entry";
     EXPECT_EQ(color_of(*table, 44.9F), (Rgba8{200, 100, 0, 255})) << "a solid color does not blend";
-    EXPECT_EQ(color_of(*table, 50), (Rgba8{94, 109, 124, 255})) << "a quarter of the way";
+    EXPECT_EQ(color_of(*table, 50), (Rgba8{94, 109, 124, 255}))
+        << "50 is a quarter of the way to the next entry";
     EXPECT_EQ(color_of(*table, 90), (Rgba8{255, 255, 255, 255}));
     EXPECT_EQ(table->end, 75);
     EXPECT_DOUBLE_EQ(extinction_per_m(*table, 40, 1), extinction_per_m(nws_reflectivity(), 40, 1));

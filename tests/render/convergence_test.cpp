@@ -91,7 +91,7 @@ TEST(Smooth, InterpolationBetweenRaysStaysNearItsTolerance) {
             if (off > 4 * tolerance) ++far_off;
         }
         EXPECT_LT(static_cast<double>(far_off), 0.01 * static_cast<double>(all.rgba.size()));
-        EXPECT_GT(sum, previous) << "interpolates more";
+        EXPECT_GT(sum, previous) << "this tolerance interpolates more pixels";
         previous = sum;
     }
 }

@@ -246,7 +246,7 @@ TEST(ClearAir, MayHaveSpecksOfStrongerEcho) {
     EXPECT_TRUE(clear(25, 10));
     EXPECT_FALSE(clear(25, 14));
     EXPECT_TRUE(clear(35, 6));
-    EXPECT_FALSE(clear(35, 8)) << "a small shower";
+    EXPECT_FALSE(clear(35, 8)) << "this is a small shower";
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(Cappi, IsLinearBetweenLevelsAndTheLevelItselfAtOne) {
     // Between a value and no echo, the heavier state counts, and the value is unchanged.
     EXPECT_EQ(at(700).status[1], CellStatus::value);
     EXPECT_FLOAT_EQ(at(700).values[1], 40);
-    EXPECT_EQ(at(750).status[1], CellStatus::value) << "equal weights: the value counts";
+    EXPECT_EQ(at(750).status[1], CellStatus::value) << "if the weights are equal, the value counts";
     EXPECT_EQ(at(800).status[1], CellStatus::no_echo);
 }
 
@@ -187,7 +187,7 @@ TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
     single[5] = valued(40);
     const auto bricks = columns_of({hidden, single});
     const FlatField field = vil_field(bricks.view(), 1);
-    EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "half of both layers";
+    EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "half of each layer counts";
     EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers have Z / 2";
 }
 
@@ -254,11 +254,12 @@ TEST(VilDensity, IsVilOverTheHeightOfTheTopAboveTheRadar) {
     const grid::BrickView view = bricks.view();
     const FlatField density = vil_density_field(view, 18.5, 1000, 1);
     const FlatField vil = vil_field(view, 1);
-    EXPECT_FLOAT_EQ(density.values[0], vil.values[0] * 1000 / 4000) << "echo up to 5 km";
+    EXPECT_FLOAT_EQ(density.values[0], vil.values[0] * 1000 / 4000)
+        << "the echo reaches up to 5 km";
     EXPECT_EQ(density.status[1], CellStatus::no_echo);
     EXPECT_EQ(density.status[2], CellStatus::not_seen);
     EXPECT_EQ(density.status[3], CellStatus::range_folded);
-    EXPECT_FLOAT_EQ(density.values[4], vil.values[4] * 1000 / 500) << "a top below the radar";
+    EXPECT_FLOAT_EQ(density.values[4], vil.values[4] * 1000 / 500) << "the top is below the radar";
     EXPECT_TRUE(density.at_least.empty());
     FrameFacts facts;
     facts.sites = {{"KAAA", 35, -97, 300}, {"KBBB", 36, -97, 500}};
@@ -272,7 +273,7 @@ TEST(MaximumHeight, IsThatOfTheLowestOfTheLargestCells) {
                                     {folded, valued(30)}});
     const FlatField field = maximum_height_field(bricks.view(), 18.5, 1);
     EXPECT_FLOAT_EQ(field.values[0], 1);
-    EXPECT_EQ(field.status[1], CellStatus::no_echo) << "below the threshold";
+    EXPECT_EQ(field.status[1], CellStatus::no_echo) << "the echo is below the threshold";
     EXPECT_EQ(field.status[2], CellStatus::not_seen);
     EXPECT_FLOAT_EQ(field.values[3], 1);
 }

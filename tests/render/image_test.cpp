@@ -18,7 +18,8 @@ TEST(Over, AnOpaqueColorHidesWhatIsBelow) {
     const Rgba8 below = {40, 44, 50, 255};
     EXPECT_EQ(over({200, 3, 90, 255}, below), (Rgba8{200, 3, 90, 255}));
     EXPECT_EQ(over({200, 3, 90, 0}, below), below);
-    EXPECT_EQ(over({200, 4, 90, 51}, below), (Rgba8{72, 36, 58, 255})) << "a fifth of the way";
+    EXPECT_EQ(over({200, 4, 90, 51}, below), (Rgba8{72, 36, 58, 255}))
+        << "the color is a fifth of the way";
 }
 
 }  // namespace

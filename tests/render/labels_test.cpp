@@ -141,7 +141,7 @@ TEST(Labels, WhatHasNoRoomEndsInAnEllipsis) {
         EXPECT_LE(fonts.width(text.text, text.size, text.bold), text.box.width + 0.01);
         cut += text.text.ends_with("\u2026") ? 1 : 0;
     }
-    EXPECT_GE(cut, 2) << "the title and the warnings";
+    EXPECT_GE(cut, 2) << "the title and the warnings are cut";
 }
 
 TEST(Labels, WarningsStandBesideTheProductAndMoveNothing) {

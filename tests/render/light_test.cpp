@@ -31,7 +31,7 @@ TEST(Light, IsNamedByItsKinds) {
             status.error().message,
             fmt::format("none cannot be combined with other kinds of light, as in '{}'", mixed));
     }
-    EXPECT_TRUE(light.shadow) << "errors change nothing";
+    EXPECT_TRUE(light.shadow) << "an error changes nothing";
     ASSERT_TRUE(set_light("none", light));
     EXPECT_FALSE(light.any());
 }
@@ -124,7 +124,8 @@ TEST(LightVolume, UnderASlabIsTheClosedForm) {
         EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 1000 * (15 - z)), 1e-4);
     }
     for (const int z : {7, 3, 0})
-        EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 8000), 1e-4) << "below the slab";
+        EXPECT_NEAR(light.sun_at(8, 8, z), std::exp(-k * 8000), 1e-4)
+            << "the cell is below the slab";
 }
 
 // The shadow of a tower points away from the sun, and is longer if the sun is lower.
@@ -137,9 +138,9 @@ TEST(LightVolume, ATowersShadowFallsAwayFromTheSun) {
     // The tower is 16 km high, so its shadow on the ground reaches 16 km to the east.
     EXPECT_LT(light.sun_at(19, 16, 0), 0.3F) << "10 km to the east";
     EXPECT_GT(light.sun_at(25, 16, 0), 0.9F) << "36 km to the east";
-    EXPECT_GT(light.sun_at(12, 16, 0), 0.99F) << "to the west";
-    EXPECT_GT(light.sun_at(19, 22, 0), 0.9F) << "beside the shadow";
-    EXPECT_GT(light.sun_at(19, 16, 14), 0.9F) << "above the shadow";
+    EXPECT_GT(light.sun_at(12, 16, 0), 0.99F) << "the cell is to the west of the tower";
+    EXPECT_GT(light.sun_at(19, 22, 0), 0.9F) << "the cell is beside the shadow";
+    EXPECT_GT(light.sun_at(19, 16, 14), 0.9F) << "the cell is above the shadow";
 }
 
 TEST(LightVolume, IsTheSameForAnyNumberOfThreads) {

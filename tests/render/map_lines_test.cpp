@@ -141,7 +141,7 @@ TEST(RangeRings, AreFewWhateverTheSizeOfTheGrid) {
     EXPECT_EQ(usual(160, 250), 10e3);
     Scene asked;
     asked.range_ring_spacing_m = 5e3;
-    EXPECT_EQ(drawn_ring_spacing(spec, asked), 5e3) << "the requested spacing";
+    EXPECT_EQ(drawn_ring_spacing(spec, asked), 5e3) << "the scene asks for this spacing";
 }
 
 }  // namespace

@@ -117,7 +117,8 @@ TEST(Panels, EachHasItsGridAndItsColors) {
     EXPECT_EQ(at(1, 0), at(0, 1));
     EXPECT_EQ(at(1, 1), at(0, 0));
     EXPECT_NE(at(1, 0), at(0, 0));
-    EXPECT_EQ(render_panels(panels, 5)->rgba, picture->rgba) << "any number of threads";
+    EXPECT_EQ(render_panels(panels, 5)->rgba, picture->rgba)
+        << "the number of threads does not matter";
 }
 
 TEST(Panels, WhatCannotBeDrawnIsRefused) {
@@ -133,7 +134,7 @@ TEST(Panels, WhatCannotBeDrawnIsRefused) {
     ASSERT_FALSE(small);
     EXPECT_THAT(small.error().message, ::testing::HasSubstr("need a larger picture"));
     panel.scene.moment = level2::Moment::vel;
-    EXPECT_FALSE(render_panels({&panel, 1}, 1)) << "a grid of another moment";
+    EXPECT_FALSE(render_panels({&panel, 1}, 1)) << "the grid is of another moment";
     panel.scene = scene;
     panel.scene.product = Product::section;
     panel.scene.section = SectionLine{{35, -98}, {36, -97}};

@@ -49,7 +49,8 @@ TEST(EncodePng, OpaqueImagesComeBackToo) {
     const auto bytes = encode_png(image);
     ASSERT_TRUE(bytes);
     EXPECT_EQ(decode(*bytes).rgba, image.rgba);
-    EXPECT_EQ(std::to_integer<int>((*bytes)[25]), PNG_COLOR_TYPE_RGB) << "the header's color type";
+    EXPECT_EQ(std::to_integer<int>((*bytes)[25]), PNG_COLOR_TYPE_RGB)
+        << "the header gives the color type";
 }
 
 TEST(EncodePng, TextsBecomeTextChunks) {

@@ -44,7 +44,7 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(map_pixel(*image, 10, 90), (Rgba8{0xFD, 0, 0, 255})) << "north-west is top left";
     EXPECT_EQ(map_pixel(*image, 60, 20), nws_reflectivity().range_folded);
-    EXPECT_EQ(map_pixel(*image, 30, 20), shades::dark.land.seen) << "below the table";
+    EXPECT_EQ(map_pixel(*image, 30, 20), shades::dark.land.seen) << "the value is below the table";
     EXPECT_EQ(map_pixel(*image, 50, 50), shades::dark.land.seen);
     EXPECT_EQ(image->at(1, 1), shades::dark.page);
     // Ground that was not seen is hatched: it has two colors, and neither is the color of clear

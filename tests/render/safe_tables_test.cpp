@@ -103,7 +103,8 @@ TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
     ColorTable table = find_color_table("safe-velocity").value();
     const std::size_t count = table.stops.size();
     ASSERT_EQ(count % 2, 1U);
-    EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "away";
+    EXPECT_TRUE(lightness_rises(table, count / 2, count))
+        << "velocities away from the radar must get lighter";
     for (const Sight& sight : sights) {
         for (std::size_t i = 0; i < count / 2; ++i) {
             EXPECT_GE(ciede2000(seen_by(sight, table.stops[i].color),
@@ -113,7 +114,8 @@ TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
         }
     }
     std::reverse(table.stops.begin(), table.stops.end());
-    EXPECT_TRUE(lightness_rises(table, count / 2, count)) << "towards";
+    EXPECT_TRUE(lightness_rises(table, count / 2, count))
+        << "velocities toward the radar must get lighter";
 }
 
 // Shows that the previous test can fail, because the tables of the Weather Service would fail it.

@@ -43,7 +43,7 @@ TEST(Colors, AreTheScenesOrTheProductsOrTheMoments) {
     EXPECT_TRUE(validate(scene));
     scene.colors->unit.clear();
     scene.colors->moment = level2::Moment::ref;
-    EXPECT_TRUE(validate(scene)) << "a table without a unit";
+    EXPECT_TRUE(validate(scene)) << "a table needs no unit";
 }
 
 TEST(SceneValidation, AcceptsTheDefault) {

@@ -48,7 +48,8 @@ TEST(Section, OfAPlaneIsThatPlane) {
             const double height_m = 10250 * (y + 0.5) / 42;
             const std::size_t i = section.field.index(x, y);
             if (height_m < 250) {
-                EXPECT_EQ(section.field.status[i], CellStatus::not_seen) << "below the cells";
+                EXPECT_EQ(section.field.status[i], CellStatus::not_seen)
+                    << "the place is below the cells";
                 continue;
             }
             const double level = std::clamp(height_m / 500 - 1, 0.0, 19.0);

@@ -76,9 +76,10 @@ TEST(LengthText, IsOfTheUnit) {
     EXPECT_EQ(height_text(3000, {}), "3 km");
     EXPECT_EQ(distance_text(30 * 1609.344, units("miles")), "30 mi");
     EXPECT_EQ(distance_text(804.672, units("miles")), "0.5 mi");
-    EXPECT_EQ(height_text(3000, units("kft")), "9.84 kft") << "not round: three digits";
+    EXPECT_EQ(height_text(3000, units("kft")), "9.84 kft")
+        << "a height that is not round has three digits";
     EXPECT_EQ(height_text(3000, units("feet")), "9840 ft");
-    EXPECT_EQ(height_text(12192, units("feet")), "40000 ft") << "no exponent";
+    EXPECT_EQ(height_text(12192, units("feet")), "40000 ft") << "no height has an exponent";
     EXPECT_EQ(number_text(1234567, 3), "1230000");
     EXPECT_EQ(number_text(-0.00123456, 3), "-0.00123");
     EXPECT_EQ(number_text(0), "0");
@@ -96,7 +97,7 @@ TEST(LengthText, RingsAreRoundInTheUnit) {
     EXPECT_DOUBLE_EQ(spacing(50e3, "miles"), 30 * 1609.344);
     EXPECT_DOUBLE_EQ(spacing(50e3, "nmi"), 25 * 1852.0);
     EXPECT_DOUBLE_EQ(spacing(160e3, "miles"), 100 * 1609.344);
-    EXPECT_LE(std::hypot(230e3, 230e3) / spacing(1e3, "miles"), 20) << "at most 20 rings";
+    EXPECT_LE(std::hypot(230e3, 230e3) / spacing(1e3, "miles"), 20) << "there are at most 20 rings";
 }
 
 TEST(Units, LegendsAndTitlesHaveThem) {

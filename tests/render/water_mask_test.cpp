@@ -22,7 +22,7 @@ TEST(AreaMask, RingsThatRunTheOtherWayAreHoles) {
     mask.add({{0, 0}, {0, 1}, {0.5, 1}, {0.5, 0}});
     mask.put(false);
     cells = mask.cells();
-    EXPECT_NEAR(cells[0], 128, 2) << "half of the cell";
+    EXPECT_NEAR(cells[0], 128, 2) << "half of the cell is water";
     EXPECT_EQ(cells[1], 255);
 }
 
@@ -72,7 +72,7 @@ TEST(WaterMask, OfAMapHasNoSeamsBetweenTiles) {
         }
         EXPECT_EQ(water(38.8, -100), 1);
         EXPECT_EQ(water(40, -101.2), 1);
-        EXPECT_EQ(water(40.6, -99.4), 1) << "the lake";
+        EXPECT_EQ(water(40.6, -99.4), 1) << "the place is in the lake";
         EXPECT_LT(water(40.6, -99.6), 0.01);
         // The coast is drawn around the land, but not along the edges of the tiles inside it.
         for (const MapStroke& stroke : layer.strokes) {

@@ -196,7 +196,7 @@ TEST(FactsOnce, NoDefaultLetsAForgottenCaseCompile) {
         for (const std::string& body : switches_of(source.code))
             switches += std::regex_search(body, case_of_a_table) ? 1 : 0;
     }
-    EXPECT_GE(switches, 8U) << "switches over enumerations of tables";
+    EXPECT_GE(switches, 8U) << "too few switches were found";
 }
 
 TEST(FactsOnce, TheCheckSeesWhatItLooksFor) {

@@ -77,7 +77,7 @@ TEST(Locks, EveryMutexSaysWhatItGuards) {
             ADD_FAILURE() << path << ": no annotation says what " << name << " guards";
         guarded += code.find("STORMCELLAR_GUARDED_BY(") != std::string::npos ? 1 : 0;
     }
-    EXPECT_GE(guarded, 50U) << "files";
+    EXPECT_GE(guarded, 50U) << "too few files were found";
 }
 
 TEST(Locks, TheTestFindsWhatItRefuses) {

@@ -84,7 +84,7 @@ TEST(OnePlace, ASubcommandIsRegisteredOnce) {
         testing::text_of(testing::source_directory() / *subcommand_registry.begin());
     const auto names = testing::found_in(registry, std::regex(R"re(Subcommand\{"([a-z]+)")re"));
     ASSERT_GE(names.size(), 11U);
-    EXPECT_TRUE(std::ranges::is_sorted(names)) << "as --help shows them";
+    EXPECT_TRUE(std::ranges::is_sorted(names)) << "--help shows the names in this order";
     for (const std::string& name : names) {
         const std::string function = "set_up_" + name + "(";
         const auto sources = sources_with(function, {"cli"});

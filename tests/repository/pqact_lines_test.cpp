@@ -81,7 +81,7 @@ TEST(PqactLines, PutAChunkWhereTheManualSays) {
                   drop + "KFTG20150908215946_V06", drop + "KFTG20150908215946_V06",
                   script + drop.substr(0, drop.size() - 1) + " KFTG20150908215946_V06",
                   drop + "494/20150908-215946-55-E"}));
-    EXPECT_TRUE(places("SDUS54 KFTG 082159 /pNCRFTG").empty()) << "another feed's product";
+    EXPECT_TRUE(places("SDUS54 KFTG 082159 /pNCRFTG").empty()) << "the product is of another feed";
 }
 
 }  // namespace

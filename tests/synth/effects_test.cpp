@@ -68,7 +68,7 @@ TEST(Noise, AloneItSeldomPassesAThreshold) {
     EXPECT_LT(noisy_dbz(no_echo_dbz, -20, 2, needed - 1e-6), -18);
     EXPECT_GT(noisy_dbz(no_echo_dbz, -20, 2, needed + 1e-6), -18);
     EXPECT_EQ(noisy_dbz(no_echo_dbz, -20, 2, -1), no_echo_dbz);
-    EXPECT_NEAR(noisy_dbz(35, -20, 0, 3), 35, 1e-4) << "no deviation, no change";
+    EXPECT_NEAR(noisy_dbz(35, -20, 0, 3), 35, 1e-4) << "without a deviation, nothing changes";
 }
 
 TEST(Noise, OfVelocitiesDoublesWhereSignalEqualsNoise) {

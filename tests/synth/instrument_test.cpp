@@ -268,7 +268,7 @@ TEST(Instrument, ClutterStandsStillNearTheRadar) {
     EXPECT_GT(valid, 20000U);
     const auto& high = *volume.sweeps[2].find(Moment::ref);
     for (const auto code : high.codes8)
-        ASSERT_EQ(code, 0) << "no clutter at 4 degrees";
+        ASSERT_EQ(code, 0) << "a sweep at 4 degrees has no clutter";
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST_F(Replay, OpenFilesStayOpenAndTheOldestAreClosed) {
         ASSERT_EQ(counts.size(), 40U);
         for (std::size_t i = 0; i < counts.size(); ++i)
             EXPECT_EQ(counts[i], std::min(i + 1, most));
-        EXPECT_EQ(open_below(drop()), 0U) << "closed at the end";
+        EXPECT_EQ(open_below(drop()), 0U) << "all files are closed at the end";
         fs::remove_all(drop());
         fs::create_directory(drop());
     }

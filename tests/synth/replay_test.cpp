@@ -31,7 +31,7 @@ TEST_F(Replay, WhatIsNotThereOrTwiceThereIsNamed) {
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
     EXPECT_THAT(missing.error().message, HasSubstr("nowhere"));
-    EXPECT_FALSE(find_replay_items({directory_ / "in"})) << "empty";
+    EXPECT_FALSE(find_replay_items({directory_ / "in"})) << "the directory is empty";
     put("a", volume_at(1));
     put("other/a", volume_at(2));
     const auto twice = find_replay_items({directory_ / "in/a", directory_ / "in/other"});

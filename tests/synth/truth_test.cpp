@@ -186,7 +186,8 @@ TEST(TruthBox, IsFlatAndFallsBeyondItsSides) {
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10025, 0, 3000}, 0), 40 - 30.0 / 4, 1e-9);
     // This point is 30 m east and 40 m north of a corner, so 50 m from the box.
     EXPECT_NEAR(truth_dbz(weather, {1000 + 10030, 20040, 3000}, 0), 10, 1e-9);
-    EXPECT_NEAR(truth_dbz(weather, {1000 + 10050 + 100, 0, 3000}, 10), 10, 1e-9) << "it drifts";
+    EXPECT_NEAR(truth_dbz(weather, {1000 + 10050 + 100, 0, 3000}, 10), 10, 1e-9)
+        << "the box drifts";
     EXPECT_EQ(truth_dbz(weather, {1000, 0, 1999}, 0), -INFINITY);
     EXPECT_EQ(truth_dbz(weather, {1000, 0, 6001}, 0), -INFINITY);
     EXPECT_EQ(truth_dbz(weather, {1000, 20080, 3000}, 0), -INFINITY);
@@ -223,7 +224,8 @@ TEST(Truth, TheAirMovesWithTheWindAndTheEchoWithItsFeature) {
     EXPECT_NEAR(without.motion.east_mps, 20, 1e-12);
     EXPECT_NEAR(with.motion.east_mps, 4, 1e-12);
     EXPECT_NEAR(linear_truth(weather, later, 100).motion.north_mps, 50, 1e-12);
-    EXPECT_EQ(truth(weather, {900000, 0, 1000}, 0).motion.north_mps, 0) << "no echo, no motion";
+    EXPECT_EQ(truth(weather, {900000, 0, 1000}, 0).motion.north_mps, 0)
+        << "without echo there is no motion";
     const Weather turned = seen_from(weather, {0, 0, 90});  // its north is east
     EXPECT_NEAR(truth(turned, {-later.y_m, later.x_m, 1000}, 100).motion.north_mps, 4, 1e-9);
 }

@@ -136,8 +136,8 @@ TEST(ApiSweeps, HaveTheDealiasedVelocityBesideTheVelocity) {
     EXPECT_EQ(std::memcmp(bytes.data() + header.codes_offset, made.codes16.data(),
                           2 * made.codes16.size()),
               0);
-    EXPECT_EQ(doors.get(path + "/0/VELD").status, 404U) << "a surveillance sweep";
-    EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes) << "kept";
+    EXPECT_EQ(doors.get(path + "/0/VELD").status, 404U) << "a surveillance sweep has no velocity";
+    EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes) << "the second answer is the kept one";
 }
 
 // 2026-11-28: a volume that came as chunks was decoded once, so its list never got later sweeps.

@@ -133,7 +133,7 @@ TEST_F(Metrics, TellWhatTheServerDidAndHolds) {
         1);
     EXPECT_EQ(value("stormcellar_web_streams"), 1);
     EXPECT_GE(value("stormcellar_web_connections"), 2);
-    EXPECT_EQ(value("stormcellar_web_working_requests"), 1) << "this request";
+    EXPECT_EQ(value("stormcellar_web_working_requests"), 1) << "the server works on this request";
     EXPECT_GT(value("stormcellar_web_resident_bytes"), 1 << 20);
     EXPECT_GT(value("stormcellar_web_cpu_seconds_total"), 0);
     EXPECT_EQ(value("stormcellar_web_cache_watched"), 1);

@@ -176,7 +176,7 @@ TEST(ReadRequest, TrustsAProxyHoweverItsAddressIsWritten) {
 TEST(ReadRequest, DoesNotBelieveAClientThatAddsTheOtherKindOfForwardedField) {
     Reading reading = read_through_proxy(
         {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "for=198.51.100.77;host=127.0.0.1"}});
-    EXPECT_EQ(reading.request.client, "127.0.0.1") << "the address of the proxy";
+    EXPECT_EQ(reading.request.client, "127.0.0.1") << "the client is the proxy itself";
     EXPECT_EQ(reading.request.base, "http://radar.example.org");
     reading = read_through_proxy(
         {{"X-Forwarded-For", "192.0.2.7"}, {"Forwarded", "proto=https;host=127.0.0.1"}});

@@ -159,7 +159,8 @@ TEST_F(S3, PagesHaveEverythingOnce) {
             EXPECT_EQ(all[2].substr(0, 5), "2017/");
         }
     }
-    EXPECT_EQ(keys("?max-keys=1&marker=" + middle_key), Texts{new_key}) << "list version 1";
+    EXPECT_EQ(keys("?max-keys=1&marker=" + middle_key), Texts{new_key})
+        << "list version 1 has a marker";
     EXPECT_EQ(text("?max-keys=2", "NextMarker"), middle_key);
     EXPECT_EQ(keys("?list-type=2&max-keys=0"), Texts{});
 }

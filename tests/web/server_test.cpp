@@ -149,7 +149,8 @@ TEST_F(WebServer, RefusesWhatItMustNotAnswer) {
     EXPECT_EQ(status_in(get("/%2e%2e/etc/passwd")), 400);
     EXPECT_EQ(status_in(get("/a%00b")), 400);
     EXPECT_EQ(status_in(get("/?a=%ff")), 400);
-    EXPECT_EQ(status_in(get("/", "Host: evil.example\r\n")), 400) << "two Host fields";
+    EXPECT_EQ(status_in(get("/", "Host: evil.example\r\n")), 400)
+        << "the request has two Host fields";
     RawClient other(port_);
     other.send("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n");
     EXPECT_EQ(status_in(other.read_to_end()), 421);
@@ -255,7 +256,7 @@ TEST_F(WebServer, AFileThatIsCutWhileItIsSentEndsTheConnectionEarly) {
     for (const char* target : {"/file", "/joined"}) {
         const std::string cut = get(target);
         EXPECT_EQ(status_in(cut), 200);
-        EXPECT_LE(body_in(cut).size(), 1004u) << "fewer bytes than Content-Length says";
+        EXPECT_LE(body_in(cut).size(), 1004u) << "fewer bytes come than Content-Length says";
         EXPECT_NE(cut.find("Content-Length: 1048"), std::string::npos);
     }
 }

@@ -225,7 +225,8 @@ TEST_F(Thredds, RangesAndPlacesAreHeard) {
 TEST_F(Thredds, TheIdvsQueriesAreAnswered) {
     const std::string all = query("?&stn=KTLX&time_start=1990-01-01T00:00:00&time_end=present");
     EXPECT_NE(all.find("2 datasets found for query"), all.npos);
-    EXPECT_LT(all.find("KTLX19910720"), all.find("KTLX20170101")) << "in the order of time";
+    EXPECT_LT(all.find("KTLX19910720"), all.find("KTLX20170101"))
+        << "volumes are in the order of time";
     const std::string none = query("?&stn=KZZZ&time_start=1990-01-01&time_end=present");
     EXPECT_NE(none.find("0 datasets found for query"), none.npos);
     EXPECT_NE(query("?stn=../../etc&temporal=all").find("0 datasets"), std::string::npos);

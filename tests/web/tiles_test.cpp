@@ -181,7 +181,8 @@ TEST_F(Tiles, AreKeptAndHaveTags) {
         << "\"latest\" soon means another grid";
     EXPECT_EQ(get(path, {{"If-None-Match", etag}}).status, 304u);
     const std::string named = std::string("/tiles/KTLX/composite/") + PicturedStorm::time;
-    EXPECT_EQ(header_of(get(named + "/8/58/100.png"), "ETag"), etag) << "the same bytes";
+    EXPECT_EQ(header_of(get(named + "/8/58/100.png"), "ETag"), etag)
+        << "the tile has the same bytes";
     EXPECT_EQ(header_of(get(named + "/8/58/100.png"), "Cache-Control"), "max-age=300");
     EXPECT_EQ(get(named + "/8/59/100.png", {{"If-None-Match", etag}}).status, 200u);
 }

@@ -304,7 +304,7 @@ TEST_F(Wms, EachNamedLayerHasItsTimes) {
         ++layers;
         const std::string layer = text.substr(at, text.find("</Layer>", at) - at);
         EXPECT_THAT(layer, HasSubstr("<Dimension name=\"time\"")) << layer.substr(0, 40);
-        EXPECT_LT(layer.find("<Dimension"), layer.find("<Style>")) << "the order of the schema";
+        EXPECT_LT(layer.find("<Dimension"), layer.find("<Style>")) << "the schema has this order";
     }
     EXPECT_GT(layers, 5u);
 }

@@ -103,8 +103,8 @@ TEST_F(Dropping, AWrongClockRemovesNothing) {
     FeedDrop drop = open();
     write(drop, key("KTLX", 1, drop_now - hours{1}, 1));
     write(drop, key("KTLX", 2, drop_now, 1));
-    EXPECT_EQ(drop.prune(drop_now + hours{24 * 400}), 0U) << "a clock of the future";
-    EXPECT_EQ(drop.prune(drop_now - hours{24 * 400}), 0U) << "a clock of the past";
+    EXPECT_EQ(drop.prune(drop_now + hours{24 * 400}), 0U) << "the clock is far ahead";
+    EXPECT_EQ(drop.prune(drop_now - hours{24 * 400}), 0U) << "the clock is far behind";
 }
 
 TEST_F(Dropping, WhatAKilledWriterLeftIsSweptUp) {

@@ -46,7 +46,7 @@ TEST_F(FeedingFrom, EverythingArrivesWithItsNames) {
     EXPECT_EQ(feed_.files(), bucket_.objects());
     EXPECT_EQ(feed_.station().written, 15U);
     EXPECT_EQ(feed_.station().refused, 0U);
-    EXPECT_EQ(bucket_.count("GET "), 15U) << "each chunk once";
+    EXPECT_EQ(bucket_.count("GET "), 15U) << "each chunk is fetched once";
 }
 
 TEST_F(FeedingFrom, ListingsOfManyPagesAreRead) {

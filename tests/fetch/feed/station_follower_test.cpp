@@ -113,7 +113,7 @@ TEST_F(Following, AChunkThatNeverComesIsCounted) {
     add_volume(keys_, 495, start + minutes{5}, 6);
     EXPECT_EQ(all().size(), 10U);
     (void)turns(20);
-    EXPECT_EQ(follower_->missing(), 2U) << "number 3, and the end";
+    EXPECT_EQ(follower_->missing(), 2U) << "number 3 and the end are missing";
     EXPECT_LE(std::ranges::count(questions_, "KTLX/494/"), 12)
         << "the old volume is listed for another minute";
 }
@@ -123,7 +123,8 @@ TEST_F(Following, AnEndThatNeverComesHoldsUpNothing) {
     add_volume(keys_, 494, start, 5, false);
     (void)turns(3);
     add_volume(keys_, 495, start + minutes{5}, 1, false);
-    EXPECT_EQ(turns(4), std::vector{key(495, start + minutes{5}, 1, 'S')}) << "within 16 seconds";
+    EXPECT_EQ(turns(4), std::vector{key(495, start + minutes{5}, 1, 'S')})
+        << "the chunk comes within 16 seconds";
 }
 
 TEST_F(Following, AfterNumber999ComesNumber1) {

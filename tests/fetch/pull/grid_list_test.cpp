@@ -106,7 +106,8 @@ TEST(GridList, OfMutantsOnlyPossibleNamesAreLeft) {
         }
     }
     EXPECT_GT(lists, 300U);
-    EXPECT_FALSE(parsed(std::string(most_list_bytes, '['))) << "however deep";
+    EXPECT_FALSE(parsed(std::string(most_list_bytes, '[')))
+        << "lists that are nested deeply are refused";
 }
 
 TEST(GridList, WhatIsNoListIsCorrupt) {
