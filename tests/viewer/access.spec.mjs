@@ -167,15 +167,15 @@ test('Tab reaches every control in the order of the page, and leaves the page ag
   const wanted = await page.locator('main button, main select, main input').evaluateAll((all) =>
     all.filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0).map((one) => one.id),
   );
-  expect(visited.length, 'controls that Tab comes to').toBeLessThan(80);
-  expect(wanted.filter((id) => !visited.includes(id)), 'what Tab does not come to').toEqual([]);
-  expect(unmarked, 'what is not marked while it has the keyboard').toEqual([]);
-  expect(visited.filter((id) => wanted.includes(id)), 'the order').toEqual(wanted);
+  expect(visited.length, 'number of controls that Tab reaches').toBeLessThan(80);
+  expect(wanted.filter((id) => !visited.includes(id)), 'controls that Tab does not reach').toEqual([]);
+  expect(unmarked, 'controls without a mark while they have the focus').toEqual([]);
+  expect(visited.filter((id) => wanted.includes(id)), 'the order in which Tab reaches the controls').toEqual(wanted);
 });
 
 test('keys work in the picture at first, and Escape closes a panel and returns the focus', async ({ page, near: viewer }) => {
   expect(await page.evaluate(() => matchMedia('(prefers-reduced-motion: reduce)').matches)).toBe(true);
-  expect(await page.evaluate(() => document.getAnimations().length), 'what moves by itself').toBe(0);
+  expect(await page.evaluate(() => document.getAnimations().length), 'number of animations').toBe(0);
   await page.evaluate(() => document.activeElement.blur());
   await viewer.changes('before anything has the keyboard, T looks from above', 'tilt', () => viewer.key('t'), (_, after) => after === 0);
   await open(viewer, panels[0]);
@@ -198,5 +198,5 @@ test('chosen units are shown and remembered', async ({ viewer, server: { station
   await expect(reading).toContainText(/\d kft/);
   await expect(reading).not.toContainText(/ km\b/);
   await viewer.open(`domain=${station}&moment=REF&zoom=0.3&least=75`);
-  await expect(viewer.byId('units-height'), 'the browser remembers them').toHaveValue('kft');
+  await expect(viewer.byId('units-height'), 'the browser remembers the units').toHaveValue('kft');
 });

@@ -112,7 +112,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await editor.table(), 'undo leads to the table of the server').toBeNull();
     await editor.press('editor-redo');
     await editor.press('editor-redo');
-    expect(await density(), 'redo leads back').toBeGreaterThan(0.1);
+    expect(await density(), 'redo brings the drag back').toBeGreaterThan(0.1);
   });
 
   test('works by keys', async ({ viewer, editor }) => {
@@ -127,12 +127,12 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     await viewer.settled(() => viewer.key('Insert'));
     expect(await editor.points(colorsPart), 'Insert adds a point').toHaveLength(before.length + 1);
     await viewer.settled(() => viewer.key('Delete'));
-    expect(await editor.points(colorsPart), 'Delete removes it').toHaveLength(before.length);
+    expect(await editor.points(colorsPart), 'Delete removes the point').toHaveLength(before.length);
     await editor.focus('opacity[tabindex="0"]');
     const low = await editor.points(opacityPart);
     await viewer.settled(() => viewer.key('Shift+ArrowUp'));
     const isDenser = ([, perKm], i) => Number(perKm) > 1.5 * Number(low[i][1]);
-    expect((await editor.points(opacityPart)).some(isDenser), 'an arrow makes denser').toBe(true);
+    expect((await editor.points(opacityPart)).some(isDenser), 'an arrow makes a point denser').toBe(true);
     await viewer.settled(() => viewer.give('point-opacity', '0.05'));
     expect((await editor.points(opacityPart)).map(([, perKm]) => perKm), 'a number can be typed').toContain('0.05');
     await editor.focus('least');

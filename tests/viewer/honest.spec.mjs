@@ -76,7 +76,7 @@ test.describe('a link to missing data', () => {
   // 2026-11-28: the page said nothing if the link was opened in the same window.
   test('is reported in the same window', async ({ page, viewer, says, newest, server: { station } }) => {
     await viewer.open(newest);
-    expect(await viewer.text('notice'), 'what is there needs no notice').toBe('');
+    expect(await viewer.text('notice'), 'the notice about data that exist').toBe('');
     await viewer.turnTo(`domain=${station}&moment=REF&time=tomorrow`);
     await expect(says.notice).toContainText('tomorrow is not a time');
     // A name with more than four numbers is not a region.
@@ -219,14 +219,14 @@ test('a grid that was made again while another moment was shown is loaded again'
   const loaded = viewer.asked(velocities);
   expect(loaded).toBeGreaterThan(0);
   await turn('VEL');
-  expect(viewer.asked(velocities), 'what was loaded is not loaded again').toBe(loaded);
+  expect(viewer.asked(velocities), 'requests for the grid that was loaded before').toBe(loaded);
   await turn('REF');
   await tell(relay, 'sweep_gridded', { domain: station, station, moment: 'VEL', grid: time });
   // Wait for a later event, because the page handles events in order.
   await tell(relay, 'station_silent', { station, silent_s: 840 });
   await expect(says.notice).toContainText('silent');
   await turn('VEL');
-  expect(viewer.asked(velocities), 'what was made again is').toBeGreaterThan(loaded);
+  expect(viewer.asked(velocities), 'requests for the grid after it was made again').toBeGreaterThan(loaded);
 });
 
 test.describe('a silent radar', () => {
@@ -323,7 +323,7 @@ test.describe('volumes that are listed but no longer exist', () => {
       await viewer.press('earlier');
       await viewer.press('later');
     });
-    await expect.poll(() => relay.held, 'requests for what is gone').toBeGreaterThan(0);
+    await expect.poll(() => relay.held, 'requests for the volume that no longer exists').toBeGreaterThan(0);
     const answered = page.waitForEvent('requestfinished', (request) => request.url().includes('2001-01-01'));
     relay.release();
     await answered;

@@ -128,9 +128,9 @@ test.describe('layers', { tag: '@full' }, () => {
     // Allow some missing pixels, because a ray may step over a cell that just reaches the value.
     // 2026-11-29: without perspective, the part of a surface at depths below 0 was missing.
     expect(missing, 'missing pixels').toBeLessThanOrEqual(0.04 * inside);
-    expect(more, 'pixels too many').toBeLessThanOrEqual(0.005 * inside);
+    expect(more, 'pixels of the surface beyond this echo').toBeLessThanOrEqual(0.005 * inside);
     expect(shape, 'pixels in the colors of VEL').toBeGreaterThan(30);
-    expect(others, 'those that are not of the surface').toBe(0);
+    expect(others, 'pixels in the colors of VEL beside the surface').toBe(0);
     expect(velocities.size, 'shades of VEL').toBeGreaterThan(10);
     expect(isDrawn(colored.at(0, 0)), 'a corner is drawn').toBe(false);
   });
@@ -219,8 +219,8 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(latitudeA, 'southward').toBeGreaterThan(latitudeB);
     expect(longitudeA, 'eastward').toBeLessThan(longitudeB);
     await viewer.settled(() => viewer.drag([430, 250], [40, 0]));
-    expect(await viewer.told('section'), 'then a drag leaves the section').toBe(second);
-    expect(await viewer.told('look-at-km'), 'and moves the map').not.toBeNull();
+    expect(await viewer.told('section'), 'a drag without the tool leaves the section').toBe(second);
+    expect(await viewer.told('look-at-km'), 'a drag without the tool moves the map').not.toBeNull();
     await viewer.changes('A looks at the section', 'tilt', () => viewer.key('a'), (_, after) => after === 80);
   });
 

@@ -69,8 +69,8 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
 
   const ends = (await viewer.told('section')).split(',').map(Number);
   expect(ends[1], 'the section begins west of the hook').toBeLessThan(hook[1]);
-  expect(ends[3], 'and ends east of it').toBeGreaterThan(hook[1]);
-  expect(Math.abs(ends[0] - hook[0]), 'degrees of latitude between them').toBeLessThan(0.1);
+  expect(ends[3], 'the section ends east of the hook').toBeGreaterThan(hook[1]);
+  expect(Math.abs(ends[0] - hook[0]), 'degrees of latitude between the section and the hook').toBeLessThan(0.1);
   // The greatest value of the plot is near the greatest value of the server's profile; the two differ between cells.
   const { points } = await server.json(`grids/KTLX/REF/latest/profile?from=${ends.slice(0, 2)}&to=${ends.slice(2)}&count=400`);
   const greatest = Math.max(...points.flatMap(({ values }) => values ?? []).filter((value) => value !== null));
@@ -84,12 +84,12 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
   const other = new ViewerPage(await context.newPage(), server.address);
   await other.page.goto(link);
   await other.drawn();
-  expect(await other.text('section-reading'), 'the section').toBe(said);
+  expect(await other.text('section-reading'), 'the reading of the section in the other page').toBe(said);
   // Allow small differences at edges, because the address rounds the camera.
   const [mine, theirs] = [await viewer.pixels(), await other.pixels()];
   expect(theirs.length).toBe(mine.length);
   const apart = mine.reduce((count, byte, i) => count + (Math.abs(byte - theirs[i]) > 24 ? 1 : 0), 0);
   report(`${apart} of ${mine.length} bytes of the pictures are apart`);
-  expect(apart, 'bytes of the pictures that are apart').toBeLessThan(mine.length / 200);
-  expect(other.trouble, 'nothing of the other page failed').toEqual([]);
+  expect(apart, 'bytes that differ between the two pictures').toBeLessThan(mine.length / 200);
+  expect(other.trouble, 'errors of the other page').toEqual([]);
 });

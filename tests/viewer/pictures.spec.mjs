@@ -48,7 +48,7 @@ test.describe('a saved picture', () => {
     const { href } = await viewer.takenBy('save');
     const { letters, same } = await lettersIn(page, href);
     expect(letters, 'pixels of letters').toBeGreaterThan(200);
-    expect(same, 'those that are where the page shows them').toBeGreaterThan(0.99 * letters);
+    expect(same, 'pixels of letters that are where the page shows them').toBeGreaterThan(0.99 * letters);
   });
 
   // 2026-11-28: 7 of 8 pictures had the time of the next picture.
@@ -94,7 +94,7 @@ test('the button of the drawn moment is highlighted', async ({ page, viewer, ser
   const held = new Promise((hold) => page.route(/\/packed/, (route) => hold(route)));
   await viewer.press('moment-SW');
   const route = await held;
-  expect(await lit(), 'what is lit and what is waited for').toEqual(['VEL', 'SW']);
+  expect(await lit(), 'the highlighted moment, and the moment that is loading').toEqual(['VEL', 'SW']);
   await route.continue();
   await viewer.until(() => document.documentElement.dataset.drawn?.includes('/SW/'), null, 60_000);
   expect(await lit(), 'then').toEqual(['SW', '']);

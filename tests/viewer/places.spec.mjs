@@ -37,7 +37,7 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     expect(Math.hypot(x - ox, y - oy), 'pixels between stations').toBeGreaterThan(20);
     await expect(viewer.byId('found')).toContainText(station);
     await viewer.hover([x + 3, y + 2]);
-    await expect(card(viewer), 'the pointer is told what is under it').toContainText(new RegExp(`^${station}[^]*REF`));
+    await expect(card(viewer), 'the card of the station under the pointer').toContainText(new RegExp(`^${station}[^]*REF`));
     await viewer.keep('map');
     await viewer.settled(() => viewer.click([x + 3, y + 2]));
     await expect(viewer.byId('start')).toBeHidden();

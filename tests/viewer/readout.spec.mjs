@@ -106,7 +106,7 @@ test.describe('the pointer', { tag: '@full' }, () => {
     const text = await reading.innerText();
     const [first, most] = [/(-?[\d.]+) dBZ at/, /Maximum (-?[\d.]+) dBZ/].map((pattern) => Number(text.match(pattern)?.[1]));
     expect(first, 'a click reads the same').toBe(parseFloat(told));
-    expect(most, 'the maximum of its column').toBeGreaterThanOrEqual(first);
+    expect(most, 'the maximum of the column').toBeGreaterThanOrEqual(first);
     const marked = await viewer.byId('labels').evaluate((labels, { x, y }) => {
       const { data } = labels.getContext('2d').getImageData(x - 4, y - 4, 9, 9);
       let white = 0;

@@ -77,9 +77,9 @@ test.describe('sharing', { tag: '@full' }, () => {
     expect(words.slice(0, 2), command).toEqual(['frame', basename(volume)]);
     const drawn = join(directory, 'command.png');
     execFileSync(program, [...words.slice(0, -1), drawn], { cwd: dirname(volume), stdio: 'ignore' });
-    expect(readFileSync(drawn).length, 'bytes of its picture').toBeGreaterThan(10000);
-    expect(command, 'it names the colors').toContain('--colors ');
-    expect(command, 'it names the size of the page').toContain(`--width ${width} --height ${height}`);
+    expect(readFileSync(drawn).length, 'bytes of the picture that the command draws').toBeGreaterThan(10000);
+    expect(command, 'the command names the colors').toContain('--colors ');
+    expect(command, 'the command names the size of the page').toContain(`--width ${width} --height ${height}`);
     // 2026-11-28: the button "Raw volume" gave the file another name than the command.
     const taken = await viewer.takenBy('raw');
     const file = await fetch(taken.href, { method: 'HEAD' });
@@ -98,7 +98,7 @@ test.describe('sharing', { tag: '@full' }, () => {
       document.getElementById('command').click();
       return document.getElementById('state').textContent;
     });
-    expect(said, 'while another moment comes').toContain('not complete');
+    expect(said, 'the page refuses while another moment is loading').toContain('not complete');
     expect(await copied(page)).toBeNull();
     await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/'), null, 60_000);
     // 2026-11-28: the command drew range-folded air as clear.
@@ -107,10 +107,10 @@ test.describe('sharing', { tag: '@full' }, () => {
     expect(await copied(page)).toBeNull();
     // 2026-11-29: the button was still marked for the previous picture.
     const button = viewer.byId('command');
-    await expect(button, 'it is not offered').not.toHaveAttribute('aria-disabled', 'false');
+    await expect(button, 'the button is disabled for a veil').not.toHaveAttribute('aria-disabled', 'false');
     await viewer.show(`domain=${station}&moment=VEL&azimuth=200&tilt=60&zoom=2&folded=0`);
     const command = await viewer.copiedBy('command');
-    await expect(button, 'without a veil it is offered').toHaveAttribute('aria-disabled', 'false');
+    await expect(button, 'the button is enabled without a veil').toHaveAttribute('aria-disabled', 'false');
     expect(command).toContain('--moment VEL');
   });
 

@@ -32,7 +32,7 @@ test('each value of the grid is counted once, in its column', () => {
     const histogram = histogramOf(grid, counts, [low, low + 10 * grid.step], 8);
     assert.equal(histogram.length, 5, 'two codes a column');
     assert.equal(histogram[0], (slow.get(first) ?? 0) + (slow.get(first + 1) ?? 0));
-    assert.equal(histogram[4], (slow.get(first + 8) ?? 0) + (slow.get(first + 9) ?? 0), 'what lies beyond is left out');
+    assert.equal(histogram[4], (slow.get(first + 8) ?? 0) + (slow.get(first + 9) ?? 0), 'values beyond are left out');
 });
 
 test('a grid without codes has the histogram of its shown codes', () => {

@@ -234,7 +234,7 @@ test('a brick of the grid shows the finest column that has come', () => {
         if (pyramid.levels[0]!.about[(x * columnsY + y) * layers] === 0) continue;
         assert.deepEqual([slotOf(entry), (entry >> 21) & 7], [slot, level], `${x} ${y}`);
     }
-    assert.equal(slotOf(entryAt(2, 0, 0)), -1, 'nothing is there yet');
+    assert.equal(slotOf(entryAt(2, 0, 0)), -1, 'no brick of this column has come');
 });
 
 test('wanted columns get the slots of the least recently used columns', () => {
@@ -253,7 +253,7 @@ test('wanted columns get the slots of the least recently used columns', () => {
     assert.equal(
         pool.take(0, 4, 0, all, new Set([columnKey(0, 1, 0), columnKey(0, 3, 0)])),
         null,
-        'what is wanted stays',
+        'wanted columns keep their slots',
     );
     const held = [...pool.columns].flatMap(({ slots }) => [...slots]).filter((slot) => slot >= 0);
     assert.equal(new Set(held).size, held.length, 'no slot is given twice');
@@ -264,9 +264,9 @@ test('columns are asked for in few ranges, which skip few columns that nobody wa
     const ranges = (columns: number[], skipped: number, most: number) =>
         rangesOf(columns, 3, (column) => weights[column]!, skipped, most).map(({ first, end }) => `${first}-${end}`);
     assert.deepEqual(ranges([1, 0], 0, 100), ['0-6']);
-    assert.deepEqual(ranges([0, 1, 4], 0, 100), ['0-15'], 'what is between has nothing in it');
-    assert.deepEqual(ranges([4, 6], 50, 500), ['12-15', '18-21'], 'what is between is too much');
+    assert.deepEqual(ranges([0, 1, 4], 0, 100), ['0-15'], 'the columns in between are empty');
+    assert.deepEqual(ranges([4, 6], 50, 500), ['12-15', '18-21'], 'the columns in between have too many bytes');
     assert.deepEqual(ranges([4, 6], 100, 500), ['12-21']);
     assert.deepEqual(ranges([0, 1, 6, 7], 0, 25), ['0-6', '18-24']);
-    assert.deepEqual(ranges([0, 1], 0, 15), ['0-3', '3-6'], 'one range is not too large');
+    assert.deepEqual(ranges([0, 1], 0, 15), ['0-3', '3-6'], 'one range for both would be too large');
 });

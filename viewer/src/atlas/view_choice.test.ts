@@ -30,7 +30,7 @@ test('a view of the whole takes cells about as wide as a pixel', () => {
     assert(wanted.every(({ level }) => level === 0 || level === 1));
     assert(
         wanted.some(({ level }) => level === 0) !== wanted.some(({ level }) => level === 1),
-        'seen from the top all cells are as far',
+        'from straight above, all columns have one level',
     );
 });
 
@@ -51,7 +51,7 @@ test('in perspective, far columns are coarser than near ones', () => {
     const levels = [...new Set(wanted.map(({ level }) => level))].sort();
     assert(levels.length > 1);
     const south = (level: number) => mean(wanted.filter((one) => one.level === level).map(middleOf));
-    assert(south(levels[0]!) < south(levels[levels.length - 1]!), 'it looks from the south');
+    assert(south(levels[0]!) < south(levels[levels.length - 1]!), 'columns in the south are nearer');
 });
 
 test('each place is covered once', () => {

@@ -101,7 +101,7 @@ test('a view asks for its visible part, no finer than pixels show, within the li
     }
     const near = windowSeen(placed(viewOf(6, 0, 0)), pyramid, grid, plenty)!;
     assert.equal(near.level, 0);
-    assert((near.x[1] - near.x[0] + 1) * (near.y[1] - near.y[0] + 1) < 20, 'a part of the 70 columns of bricks');
+    assert((near.x[1] - near.x[0] + 1) * (near.y[1] - near.y[0] + 1) < 20, 'few of the 70 columns of bricks');
     const small = windowSeen(placed(viewOf(6, 0, 0)), pyramid, grid, { columns: 1e9, bytes: 30000 })!;
     assert(small.level > 0);
     const coarse = windowSeen(placed(viewOf(6, 0, 0)), pyramid, grid, { columns: 16 * 16 * 6, bytes: 1e9 })!;

@@ -81,5 +81,5 @@ test('a drag moves a map and turns other views; with Shift it does the opposite 
     const turned = dragged(map, geometryOf(map), [60, -40], 2, true);
     assert.deepEqual(turned, orbited(map, 60, -40));
     assert.deepEqual(dragged(turned, geometryOf(turned), [10, 0], 2, false), orbited(turned, 10, 0));
-    assert.equal(namedView(map, 'oblique').fieldOfViewDeg, 40, 'who leaves the map sees in perspective again');
+    assert.equal(namedView(map, 'oblique').fieldOfViewDeg, 40, 'other views have perspective again');
 });

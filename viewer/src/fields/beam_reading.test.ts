@@ -50,14 +50,14 @@ test('a reading has the nearest site, the nearest sweep, the time of the radial 
     };
     const low = at(0.7, 30);
     assert.deepEqual([low.icao, low.sweepDeg, low.rms], ['KTLX', 0.5, 2]);
-    assert.ok(Math.abs(low.timeMs! - Date.parse('2024-01-01T00:00:02Z')) < 1, 'forty degrees at twenty a second');
+    assert.ok(Math.abs(low.timeMs! - Date.parse('2024-01-01T00:00:02Z')) < 1, 'forty degrees take two seconds');
     assert.ok(Math.abs(low.widthM - 1658) < 1);
     assert.ok(
         Math.abs(beamWidthM('TSTL', 100000) - 960) < 1 && Math.abs(beamWidthM('TJUA', 100000) - 1658) < 1,
         'a TDWR has a narrower beam (2026-11-28)',
     );
     const high = at(5, 80);
-    assert.ok(Math.abs(high.timeMs! - Date.parse('2024-01-01T00:01:01Z')) < 1, 'a radar that turns the other way');
+    assert.ok(Math.abs(high.timeMs! - Date.parse('2024-01-01T00:01:01Z')) < 1, 'the antenna turns the other way');
     const unknown = beamReading([site], null, destination(site, 1, 50000), 2000)!;
     assert.deepEqual([unknown.sweepDeg, unknown.timeMs, unknown.rms], [null, null, null]);
     assert.equal(beamReading([], facts, site, 0), null);

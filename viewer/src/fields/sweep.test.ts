@@ -105,8 +105,8 @@ test('a split cut shows the half that pictures take, and either half can be chos
         cutOf(rows, moment, elevation, number)?.sweep;
     assert.deepEqual([shown('REF', 0.5), shown('VEL', 0.5), shown('REF', 0.9), shown('VEL', 9)], [4, 5, 2, 6]);
     assert.equal(shown('SW', 0.5), undefined);
-    assert.equal(shown('REF', 0.5, 1), 1, 'the one that was chosen by hand');
-    assert.equal(shown('REF', 0.5, 3), 4, 'where another volume has another elevation at that number, the rule holds');
+    assert.equal(shown('REF', 0.5, 1), 1, 'the user chose this cut by its number');
+    assert.equal(shown('REF', 0.5, 3), 4, 'cut 3 has another elevation, so its number does not count');
     assert.deepEqual(
         cutsOf(rows, 'REF').map((one) => one.sweep),
         [0, 1, 4, 5, 2, 3, 6],

@@ -67,7 +67,7 @@ test('a fit shows every point where the page covers nothing, across the antimeri
     }
     const [guam, kauai] = [place(13.5, 144.8), place(21.9, -159.6)].map(mapPoint);
     const across = fittedMap([guam!, kauai!], 800, 600, [0, 0, 0, 0]);
-    assert.ok(pixelOf(across, guam!)[0] < pixelOf(across, kauai!)[0], 'Guam lies west of Hawaii');
+    assert.ok(pixelOf(across, guam!)[0] < pixelOf(across, kauai!)[0], 'Guam is west of Hawaii');
 });
 
 test('tiles cover the view, each once', () => {

@@ -171,7 +171,7 @@ test('a gate has the state of its code: of VELD 1 is range folded and 2 ambiguou
     const states = (of: typeof derived) => [0, 1, 2, 3].map((code) => stateOfGate(of, code));
     assert.deepEqual(states(derived), [noEcho, rangeFolded, ambiguous, value]);
     assert.deepEqual(states({ firstValueCode: 2, ambiguousCode: -1 }), [noEcho, rangeFolded, value, value]);
-    assert.equal(stateOfGate({ firstValueCode: 8, ambiguousCode: -1 }, 7), noEcho, 'a flag of CFP');
+    assert.equal(stateOfGate({ firstValueCode: 8, ambiguousCode: -1 }, 7), noEcho, 'code 7 is a flag of CFP');
 });
 
 test('the dealiased velocity follows the measured velocity, also if the server has no grids of it', () => {

@@ -98,7 +98,7 @@ test('most of a picture with little echo has no tiles', () => {
     const { columns, rows, points } = tilesOf(view, atlas, blockEnds(grid, view), 1);
     assert(points.length / 4 < 0.4 * columns * rows, `${points.length / 4} of ${columns * rows}`);
     const strong = tilesOf(view, atlas, blockEnds(grid, view), 100);
-    assert(strong.points.length < points.length, 'weak echo that is hidden has none');
+    assert(strong.points.length < points.length, 'hidden weak echo has no tiles');
 });
 
 test('tiles cover all of a small picture if they cover the whole picture of the same view', () => {

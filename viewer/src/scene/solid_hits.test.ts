@@ -161,5 +161,5 @@ test('a reading passes clear gates of the near side of a sweep and takes the far
     assert.deepEqual([seen.state, seen.value, seen.station], [CellState.value, 50, 'KTLX']);
     assert.ok(seen.at[1] > 0 && Math.abs(seen.rangeM - 10_000) < 5, `${seen.rangeM}`);
     const clear = read(() => false);
-    assert.ok(clear.state === CellState.noEcho && clear.at[1] < 0, 'if none is shown, the nearest is read');
+    assert.ok(clear.state === CellState.noEcho && clear.at[1] < 0, 'if no gate is shown, the nearest gate is read');
 });
