@@ -44,7 +44,7 @@ struct NationalSite {
 // A volume that a site sends.
 struct NationalVolume {
     std::size_t site = 0;
-    int number = 0;  // among the site's volumes, from 0
+    int number = 0;  // number among the site's volumes, from 0
     UtcTime start;
     std::string grid;  // the name of its grid's file
 };

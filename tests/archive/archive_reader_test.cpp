@@ -132,8 +132,8 @@ TEST(ArchiveReader, AnArchiveInAnArchiveIsGoneThroughOnce) {
     EXPECT_THAT(names_of(*one), ElementsAre("inner.tar.gz!a/KTLX_1", "inner.tar.gz!KTLX_2", "c"));
     const auto outer = make_archive(Kind::tar, {{"middle.zip", middle}});
     auto two_deep = ArchiveReader::open(outer);
-    // An archive two levels deep is returned as a member. The member is no volume, so decoding it
-    // reports an error.
+    // An archive two levels deep is returned as a member. The member is not a volume, so decoding
+    // it reports an error.
     EXPECT_THAT(names_of(*two_deep), ElementsAre("middle.zip!inner.tar.gz", "middle.zip!c"));
 }
 
@@ -189,7 +189,7 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     std::fill_n(lost_page.begin() + member, header, std::byte{0});
     auto reader = ArchiveReader::open(lost_page);
     EXPECT_THAT(names_of(*reader), ElementsAre("a"));
-    EXPECT_TRUE(reader->is_cut()) << "the bytes after the zeros are no header";
+    EXPECT_TRUE(reader->is_cut()) << "the bytes after the zeros are not a header";
     EXPECT_THAT(reader->why_ended(), HasSubstr("Damaged tar archive"));
     EXPECT_EQ(reader->left_out().size(), 1U);
 

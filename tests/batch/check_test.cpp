@@ -1,4 +1,4 @@
-// Tests that check() knows from the records of tasks which tasks of a plan are done.
+// Tests check(), which reads the records of tasks to tell which tasks of a plan are done.
 #include "batch/check.h"
 
 #include <gmock/gmock.h>

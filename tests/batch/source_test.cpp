@@ -142,7 +142,7 @@ TEST_F(Source, LinksAreNotFollowedAndCounted) {
     EXPECT_EQ(listing.first_link.parent_path(), directory_.path());
 }
 
-// 2026-11-29: a file that had the name of a tar but was no tar was reported as having no station
+// 2026-11-29: a file that had the name of a tar but was not a tar was reported as having no station
 // and time in its name.
 TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     write(directory_ / "README");

@@ -58,7 +58,7 @@ TEST_F(AccountProtectionTest, TheNewestIsProtectedWhileItsFileIsYoung) {
     EXPECT_THAT(all_that_may_go(),
                 ElementsAre(name("KTLX", -60 * 24 * 3650), name("KINX", 0), name("northeast", 1)));
     budgets_.protected_for = hours{0};
-    EXPECT_THAT(all_that_may_go(), IsEmpty()) << "0 is no limit";
+    EXPECT_THAT(all_that_may_go(), IsEmpty()) << "0 means that there is no limit";
 }
 
 TEST_F(AccountProtectionTest, AgeSparesTheNewestOfAMomentNoLongerThanThat) {

@@ -63,7 +63,7 @@ TEST_F(InputFilesTest, MembersOfAnArchiveGiveTheSameMosaicAsTheFiles) {
         const auto packed = grid({put_archive("order.bin", kind)});
         EXPECT_EQ(packed["cells"], plain["cells"]);
         EXPECT_EQ(packed["stations"], plain["stations"]);
-        EXPECT_THAT(errors_, HasSubstr("left out: ")) << "README.txt is no volume";
+        EXPECT_THAT(errors_, HasSubstr("left out: ")) << "README.txt is not a volume";
     }
 }
 

@@ -164,7 +164,7 @@ TEST_F(SceneFileTest, SlicesAndWhatChoosesThemExcludeEachOther) {
     EXPECT_THAT(refused("--slices 40 --effect slices_128=on"),
                 HasSubstr("--slices and --effect slices_... cannot be used together"));
     EXPECT_EQ(draw("--slices 40 --effect every_pixel=off").status, exit_done);
-    EXPECT_TRUE(has_slices(40)) << "40 is no rung, but was requested";
+    EXPECT_TRUE(has_slices(40)) << "40 is not a rung, but was requested";
     const auto explained = draw("--slices 40 --explain");
     EXPECT_EQ(explained.status, exit_done) << explained.err;
     EXPECT_THAT(explained.out, HasSubstr("has the 40 slices that you asked for; the plan has 64"));

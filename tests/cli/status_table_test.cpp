@@ -227,7 +227,7 @@ TEST(Paint, IsForTerminalsAlone) {
     ASSERT_EQ(::pipe(ends.data()), 0);
     ::unsetenv("NO_COLOR");
     ::setenv("TERM", "xterm-256color", 1);
-    EXPECT_EQ(paint_for(ends[1]), Paint::plain) << "a pipe is no terminal";
+    EXPECT_EQ(paint_for(ends[1]), Paint::plain) << "a pipe is not a terminal";
     ::close(ends[0]);
     ::close(ends[1]);
     const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);

@@ -150,7 +150,7 @@ TEST(EndToEnd, EveryWayOfWritingEndsInTheCatalogAndTheCache) {
     ASSERT_EQ(volumes.size(), 5U);
     RunningDaemon daemon;
     const fs::path day = daemon.drop() / "20050822";
-    // Deliver a volume before the start, and files that are no volumes.
+    // Deliver a volume before the start, and files that are not volumes.
     fs::copy_file(volumes[0], daemon.drop() / volumes[0].filename());
     write_file(daemon.drop() / "garbage", std::string(5000, 'x'));
     write_file(daemon.drop() / "empty", "");

@@ -131,7 +131,7 @@ TEST(StatusBook, SaysWhatWasWrongWithTheLastRejectedFiles) {
     EXPECT_LT(reason.size(), 600U);
 }
 
-// 2026-11-22: each append to a file that is no volume was counted and listed as a rejected file.
+// 2026-11-22: each append to a file that is not a volume was counted and listed as a rejected file.
 TEST(StatusBook, AFileThatIsRejectedAgainAndAgainCountsOnce) {
     StatusBook book("/d", "/c");
     const auto reject = [&](const std::string& path, const std::string& reason) {

@@ -191,7 +191,7 @@ TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
     EXPECT_EQ(axes(2125, 500), 1U);
     EXPECT_EQ(axes(2375, 250), 1U) << "the gates begin one gate farther";
     EXPECT_EQ(axes(2000, 250), 2U) << "the gates begin half a gate nearer";
-    EXPECT_EQ(axes(2125, 300), 2U) << "300 m is no multiple of 250 m";
+    EXPECT_EQ(axes(2125, 300), 2U) << "300 m is not a multiple of 250 m";
     EXPECT_EQ(axes(2125, 2250), 2U) << "2250 m is nine times 250 m";
     EXPECT_EQ(axes(2125, 0), 2U);
     EXPECT_EQ(axes(2125, -250), 2U);

@@ -58,7 +58,7 @@ struct Tried {
 
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
-    // Delivers a volume in each way, and a file that is no volume. Two of these deliveries come
+    // Delivers a volume in each way, and a file that is not a volume. Two of these deliveries come
     // before the start, the others after it.
     static Tried run(std::uint64_t at);
 };

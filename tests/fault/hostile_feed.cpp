@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 16> stations = {
     "KTLX", "KFWS", "KINX", "KVNX", "KAMA", "KFDR", "KDYX", "KSRX",
     "KLZK", "KSHV", "KDDC", "KICT", "KTWX", "KEAX", "KSGF", "KLBB"};
 
-constexpr int real_gates = 480;  // gates of 250 m
+constexpr int real_gates = 480;  // number of gates, each 250 m long
 
 const FeedScene feed_scene{"KTLX",
                            35.333,

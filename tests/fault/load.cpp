@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int gates = 160;  // gates of 250 m
+constexpr int gates = 160;  // number of gates, each 250 m long
 const std::vector<std::string> usual_stations = {"XFAA", "XFAB", "XFAC", "XFAD", "XFAE", "XFAF"};
 constexpr double latitude_deg = 35;
 constexpr double first_longitude_deg = -98;  // each further station is a degree farther east

@@ -101,7 +101,7 @@ TEST(GridTally, CountsEachCellWhereAsked) {
     EXPECT_EQ(cells.seen(at(1)), 1U);
     EXPECT_EQ(cells.greatest_dbz(at(1)), 42.5);
     EXPECT_EQ(cells.seen(at(2)), 2U);
-    EXPECT_EQ(cells.with_value(at(2)), 1U) << "no echo is no value";
+    EXPECT_EQ(cells.with_value(at(2)), 1U) << "no echo does not count as a value";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 0)), 1U) << "a folded cell is seen";
     EXPECT_EQ(cells.seen(small_spec().index(0, 0, 1)), 0U);
     // The same tally also counts columns.

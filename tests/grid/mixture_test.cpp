@@ -31,7 +31,7 @@ TEST(Blend, TwoValuesAreLinear) {
 }
 
 TEST(Blend, ValueAndNoEcho) {
-    EXPECT_EQ(mix(valued(20), quiet(-10), 0.5F).status, CellStatus::value) << "v = n is a value";
+    EXPECT_EQ(mix(valued(20), quiet(-10), 0.5F).status, CellStatus::value) << "v = n gives a value";
     EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.5F).value, 5);
     EXPECT_FLOAT_EQ(mix(valued(20), quiet(-10), 0.25F).value, 12.5F);
     EXPECT_EQ(mix(valued(20), quiet(-10), 0.51F).status, CellStatus::no_echo);

@@ -137,7 +137,7 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
         const auto made = merge(domain, partials.all(), options);
         const BrickView view = made->cells.view();
         const CellStatus status = view.status(a, b, 0);
-        // States become -100, -101 and -102, which are no values.
+        // States become -100, -101 and -102, which are not values.
         if (status != CellStatus::value) return -100 - static_cast<int>(status);
         return static_cast<double>(view.value(a, b, 0));
     };
@@ -157,9 +157,10 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     }
     for (const Overlap overlap : {Overlap::mean, Overlap::distance_weighted}) {
         EXPECT_EQ(state_of(overlap, Moment::zdr, weak, strong), 25);
-        EXPECT_EQ(state_of(overlap, Moment::zdr, weak, nothing), 10) << "v = n is a value";
-        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, strong), 40) << "f = v is a value";
-        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, nothing), no_echo) << "f = n is no echo";
+        EXPECT_EQ(state_of(overlap, Moment::zdr, weak, nothing), 10) << "v = n gives a value";
+        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, strong), 40) << "f = v gives a value";
+        EXPECT_EQ(state_of(overlap, Moment::zdr, folded, nothing), no_echo)
+            << "f = n gives no echo";
         // The detection limit is -41.5 dBZ at 1 km; the radar is some 15 km away and 1 km below.
         const double arc_km = std::hypot(domain.x_m(strong), domain.y_m(nothing)) / 1000;
         const double limit = -41.5 + 20 * std::log10(std::hypot(arc_km, 1.0));

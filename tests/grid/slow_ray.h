@@ -1,8 +1,9 @@
 // tests/grid/slow_ray.h -- a ray through spherical layers, by quadrature of Bouguer's law.
 //
-// Because n r cos(elevation) = C along the ray, range and arc between two heights are integrals
-// over height. The integrals are computed layer by layer between turning points, by the tanh-sinh
-// rule in 113-bit floats, without stepping along the ray.
+// The law says that n r cos(elevation) is constant along the ray, with the refractive index n and
+// the distance r from the center of the earth. So range and arc between two heights are integrals
+// over height. They are computed layer by layer between turning points, by the tanh-sinh rule in
+// 113-bit floats, without stepping along the ray.
 #pragma once
 
 #include "stormcellar/grid/ray_tracer.h"

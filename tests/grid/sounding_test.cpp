@@ -80,7 +80,7 @@ TEST(Sounding, AByteOrderMarkIsNoPartOfTheFirstColumn) {
     const auto marked = parse_sounding("\xEF\xBB\xBF" + text, "n");
     ASSERT_TRUE(marked) << marked.error().message;
     EXPECT_NEAR(marked->at(0).n_units, 320, 1e-9);
-    EXPECT_FALSE(parse_sounding("\xEF\xBB" + text, "n")) << "a truncated mark is no mark";
+    EXPECT_FALSE(parse_sounding("\xEF\xBB" + text, "n")) << "a truncated mark is not a mark";
     EXPECT_FALSE(parse_sounding("\xEF\xBB\xBF", "n")) << "no line names the columns";
 }
 

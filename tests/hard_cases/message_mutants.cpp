@@ -81,7 +81,7 @@ bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t las
     return !first || last - *first <= longest_ms;
 }
 
-// Returns the number of a random message. One in eight is no radial, if the volume has such
+// Returns the number of a random message. One in eight is not a radial, if the volume has such
 // messages.
 std::size_t MessageMutants::any_message(Random& random) const {
     const bool other = random() % 8 == 0;

@@ -143,8 +143,8 @@ TEST(MessageReader, AMessageCutByTheEndIsDropped) {
 }
 
 // The second radial has lost bytes, so by its length it ends inside the third radial, a few bytes
-// before the end of the data. These few bytes are no message, so they do not prove that the second
-// radial ends there.
+// before the end of the data. These few bytes are not a message, so they do not prove that the
+// second radial ends there.
 TEST(MessageReader, AFewBytesBehindARadialDoNotProveItsEnd) {
     wire::Ray large{.azimuth_number = 2, .gates = 600};
     const wire::Bytes third = ray_31(3);

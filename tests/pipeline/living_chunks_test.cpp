@@ -245,7 +245,7 @@ TEST_F(LivingChunks, OfSiblingsThatAreNoneFewAreReadInOneJob) {
     const auto volume = volumes.find(first, "A")->lock();
     ASSERT_TRUE(volume->add_with_siblings(first, stamp_of(first.path).value()));
     EXPECT_EQ(volume->files().size(), 1U)
-        << "after four files that are no chunks, the job should stop";
+        << "after four files that are not chunks, the job should stop";
     const auto later = ChunkPath::of(directory / names_[11]).value();
     EXPECT_EQ(volume->add(later, stamp_of(later.path).value()).value(), ChunkVolume::Added::added)
         << "the chunk should be added by its own job";

@@ -67,7 +67,7 @@ TEST(ColumnSummary, AgreesWithASlowSearchOverEveryMixtureOfStates) {
     }
 }
 
-// The largest code of a column of ambiguous cells is 3, which is no value.
+// The largest code of a column of ambiguous cells is 3, which is not a value.
 TEST(ColumnSummary, OfAmbiguousCellsHasNoMaximum) {
     const auto grid = make_grid_of(small_spec(16, 16), [](int, int, int) {
         return Cell{CellStatus::ambiguous, 0};

@@ -139,7 +139,7 @@ TEST(SmoothField, OfOneCellIsThatCell) {
 TEST(SmoothField, IsForMapsOfValuesThatDoNotWrap) {
     Scene scene;
     scene.smooth = true;
-    EXPECT_FALSE(is_smoothed(scene)) << "a volume is no map";
+    EXPECT_FALSE(is_smoothed(scene)) << "a volume is not a map";
     scene.product = Product::composite;
     EXPECT_TRUE(is_smoothed(scene));
     scene.moment = level2::Moment::vel;

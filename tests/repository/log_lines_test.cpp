@@ -69,7 +69,7 @@ TEST(LogLines, EveryEventIsExplainedAndNoOther) {
         EXPECT_TRUE(rows.contains(event)) << event << " is not explained";
     for (const auto& [event, row] : rows)
         EXPECT_EQ(std::count(named.begin(), named.end(), event), 1)
-            << event << " is no event of the daemon";
+            << event << " is not an event of the daemon";
 }
 
 TEST(LogLines, EveryEventIsLogged) {

@@ -24,7 +24,7 @@ export class ViewerPage {
     page.on('console', (message) => message.type() === 'error' && this.trouble.push(message.text()));
     page.on('request', (request) => this.requests.push(request.url()));
   }
-  // Counts in `bytes` what comes over the network from now on.
+  // Counts the bytes that come over the network from now on, in `bytes`.
   async countBytes() {
     this.bytes = 0;
     const session = await this.protocol();

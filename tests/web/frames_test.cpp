@@ -236,7 +236,7 @@ TEST_F(Frames, RefusesWhatMakesNoSense) {
           "product=section", "panels=REF,REF", "panels=REF&moment=VEL", "geotiff=values",
           "product=composite&tilt=50", "slices=99999999"})
         EXPECT_EQ(get(std::string("/frames/KTLX.png?") + query).status, 400u) << query;
-    EXPECT_EQ(get("/frames/KTLX.tif").status, 400u) << "a picture in perspective is no map";
+    EXPECT_EQ(get("/frames/KTLX.tif").status, 400u) << "a picture in perspective is not a map";
     EXPECT_EQ(get("/frames/KTLX.kmz?product=composite&panels=REF,VEL").status, 400u);
     for (const char* target :
          {"/frames/KTLX", "/frames/KTLX.gif", "/frames/KXXX.png", "/frames/.png",

@@ -104,7 +104,7 @@ TEST_F(EventsOfGrids, AFrameOfADomainIsAMosaicAndItsPartsAreNobodysBusiness) {
     EXPECT_EQ(all[0]["revision"], 2);
     evict("northeast.KBGM");
     EXPECT_EQ(types(events()), Types{});
-    EXPECT_TRUE(book_.pages().empty()) << "a mosaic is no sign of life of a station";
+    EXPECT_TRUE(book_.pages().empty()) << "a mosaic does not show that a station is alive";
 }
 
 TEST_F(EventsOfGrids, EvictedGridsAreOneEventOfAMoment) {

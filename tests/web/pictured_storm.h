@@ -17,7 +17,8 @@
 
 namespace stormcellar::web {
 
-// Returns the pixels of a PNG, read by libpng's own reader; an empty image if the bytes are no PNG.
+// Returns the pixels of a PNG, read by libpng's own reader; an empty image if the bytes are not a
+// PNG.
 [[nodiscard]] render::Image decoded_png(const std::string& bytes);
 
 // The domain KTLX with grids of REF and VEL, 2 km apart; the catalog names the file.

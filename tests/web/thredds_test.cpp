@@ -221,7 +221,7 @@ TEST_F(Thredds, RangesAndPlacesAreHeard) {
             << across;
 }
 
-// The IDV sends "?&stn=" and the end "present". Unknown names are no error.
+// The IDV sends "?&stn=" and the end "present". Unknown names are not an error.
 TEST_F(Thredds, TheIdvsQueriesAreAnswered) {
     const std::string all = query("?&stn=KTLX&time_start=1990-01-01T00:00:00&time_end=present");
     EXPECT_NE(all.find("2 datasets found for query"), all.npos);

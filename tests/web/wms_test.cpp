@@ -1,5 +1,5 @@
-// Tests the Web Map Service with a real volume: compares pictures with the grid's cells pixel by
-// pixel in each coordinate system, reads them with GDAL's driver, and tests refusals.
+// Tests the Web Map Service with a real volume. Compares pictures with the grid's cells, pixel by
+// pixel in each coordinate system, reads pictures with GDAL's driver, and tests refusals.
 #include "web/doors/wms/wms.h"
 
 #include <cmath>

@@ -236,7 +236,7 @@ TEST_F(FeedingFrom, AStationThatFallsSilentIsNamedUntilItSendsAgain) {
     ASSERT_TRUE(feed_.wait_for_files(12));
     ASSERT_TRUE(testing::eventually(
         [&] { return feed_.station(0).is_silent && feed_.station(1).is_silent; }));
-    EXPECT_EQ(feed_.station(0).error, "") << "silence is no failure";
+    EXPECT_EQ(feed_.station(0).error, "") << "silence is not a failure";
     bucket_.put_volume("KTLX", 495, recent + minutes{30}, 3, false);
     ASSERT_TRUE(feed_.wait_for_files(15));
     ASSERT_TRUE(testing::eventually([&] { return !feed_.station(0).is_silent; }));

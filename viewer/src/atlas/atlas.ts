@@ -23,9 +23,9 @@ export function slotOf(entry: number): number {
     return (entry & slotBits) - 1;
 }
 
-// Finds for each column of bricks without a slot how many columns away the nearest column with a slot is, and writes
-// this distance into the column's words. The distance is 1 for a neighbor, and at most 7. A ray skips all nearer
-// columns at once.
+// For each column of bricks without a slot, finds how many columns away the nearest column with a slot is. Writes this
+// distance into the column's words. The distance is 1 for a neighbor, and at most 7. A ray skips all nearer columns at
+// once.
 export function putReaches(indirection: Uint32Array, [bx, by, bz]: readonly [number, number, number]): void {
     const reach = new Uint8Array(bx * by).fill(mostReach);
     for (let i = 0; i < indirection.length; ++i) if (slotOf(indirection[i]!) >= 0) reach[i % (bx * by)] = 0;

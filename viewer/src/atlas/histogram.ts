@@ -4,7 +4,7 @@
 import { Atlas } from './atlas';
 import { PackedGrid, mayHoldValues, valueOf } from '../wire/packed_grid';
 
-// Returns the number of cells of each code; 0 for codes that are no values.
+// Returns the number of cells of each code; 0 for codes that are not values.
 export function countCodes(
     grid: PackedGrid,
     atlas: Pick<Atlas, 'histogram' | 'codeOffset' | 'codeScale'>,

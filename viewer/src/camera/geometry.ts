@@ -185,7 +185,7 @@ export class ViewGeometry {
         return [0.5 * this.width + dot(p, this.right) * scale, 0.5 * this.height - dot(p, this.up) * scale];
     }
 
-    // Returns by how much a pixel's ray moves for each meter of depth.
+    // Returns the vector by which a pixel's ray moves for each meter of depth.
     along(x: number, y: number): Vec3 {
         if (!this.isPerspective) return this.forward;
         const a = (x - 0.5 * this.width) / this.focalPixels;

@@ -20,8 +20,8 @@ export interface BlockEnds {
     z: number[];
 }
 
-// A sample belongs along each axis to the block of the cell before it, so blocks begin at the middles of cells. The
-// outermost blocks reach to the faces of the box.
+// Along each axis, a sample belongs to the block (of 4 x 4 x 4 cells; atlas/atlas.ts) of the cell before it. So blocks
+// begin at the middles of cells. The outermost blocks reach to the faces of the box.
 export function blockEnds(grid: PackedGrid, { box, exaggeration }: ViewGeometry): BlockEnds {
     const [width, height] = cellSizeM(grid);
     const along = (bricks: number, cells: number, placeOf: (cell: number) => number, low: number, high: number) =>
@@ -98,7 +98,7 @@ function extentOf(view: RayView, xs: readonly number[], ys: readonly number[], z
     return extent;
 }
 
-// A box of blocks in a brick: x, y, z of the first block, and x, y, z behind the last.
+// A box of blocks in a brick: x, y and z of its first block, and x, y and z of the block after its last.
 type Blocks = [number, number, number, number, number, number];
 
 // Returns the smallest box of blocks that holds all visible blocks of a slot; null if none is visible. If `blocks` is

@@ -237,7 +237,7 @@ export class Renderer {
         this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
     }
 
-    // Returns how many texels the volume reads for a pixel, as the mean over the picture. Draws over the picture.
+    // Returns the mean number of texels that the volume reads for a pixel. Draws over the picture.
     fetchesAPixel(frame: Frame): number {
         const gl = this.gl;
         this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });

@@ -51,7 +51,7 @@ export function projected(map: MapAnswer, plane: GridPlane): ProjectedLine[] {
     }));
 }
 
-// The map cuts areas along the edges of tiles of 2 by 2 degrees. These cuts are not drawn, because they are no coasts.
+// The map cuts areas along the edges of tiles of 2 by 2 degrees. These cuts are not drawn, because they are not coasts.
 const tileDeg = 2;
 export function isCut({ is_area, points }: MapLine, point: number): boolean {
     const [from, to] = [points[point - 1]!, points[point]!];

@@ -110,7 +110,7 @@ function number(text: string | null, { least, most }: Range, otherwise: number):
     return value >= least && value <= most ? value : otherwise;
 }
 
-// Returns the time as ISO 8601, where a time of day without a zone is UTC; 'latest' if the text is no time.
+// Returns the time as ISO 8601, where a time of day without a zone is UTC; 'latest' if the text is not a time.
 function timeOf(text: string): string {
     const hasZone = /(Z|[+-]\d\d:?\d\d)$/i.test(text) && text.includes(':');
     const time = hasZone || !text.includes(':') ? text : `${text}Z`;

@@ -11,7 +11,7 @@ import { placeAbout } from '../testing/written_grid';
 
 const plane = planeOf(placeAbout([41, -75]));
 const area = (kind: MapLine['kind'], ...points: [number, number][]): MapLine => ({ kind, is_area: true, points });
-// Land in the west of a tile. Part of its shore is along a meridian that is no edge of the tile.
+// Land in the west of a tile. Part of its shore is along a meridian that is not an edge of the tile.
 const coast = area('coast', [-76, 40], [-75, 40], [-75, 40.5], [-74.8, 41.2], [-75, 42], [-76, 42], [-76, 40]);
 const lake = area('lake', [-75.5, 41], [-75.3, 41], [-75.4, 41.1], [-75.5, 41]);
 const all = projected({ credit: '', lines: [coast, lake], cities: [] }, plane);

@@ -1,7 +1,7 @@
 // Reads the packed form of a grid (docs/web/packed-grid.md).
 //
 // Units: meters and degrees; heights are above mean sea level.
-// Errors: a PackedError if the bytes are cut or are no packed grid.
+// Errors: a PackedError if the bytes are cut or are not a packed grid.
 
 import { isDerivedNumber } from './moments';
 

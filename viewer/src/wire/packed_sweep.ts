@@ -1,7 +1,7 @@
 // Reads the packed form of a sweep's gates (docs/web/packed-grid.md).
 //
 // Units: meters and degrees; heights are above mean sea level.
-// Errors: a PackedError if the bytes are cut or are no packed sweep.
+// Errors: a PackedError if the bytes are cut or are not a packed sweep.
 
 import { isDerivedNumber } from './moments';
 import { CellState, PackedError } from './packed_grid';

@@ -1,4 +1,4 @@
-// Shows beside the pointer what is under the pointer: value, height, beam, time and stated error.
+// Shows a box beside the pointer. It tells value, height, beam, time and stated error of what is under the pointer.
 
 import { beamReading, beamWidthM, nearestTo } from '../../fields/beam_reading';
 import { GateHit } from '../../scene/solid_hits';

@@ -47,7 +47,7 @@ export class MapPointers {
         this.canvas.setPointerCapture(event.pointerId);
         this.pointers.set(event.pointerId, event);
         if (this.pointers.size > 1) {
-            this.travelled = Infinity; // this is no click
+            this.travelled = Infinity; // this is not a click
             if (this.isBox) this.map.dropBox();
             this.isBox = false;
             return;

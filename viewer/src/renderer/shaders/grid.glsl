@@ -66,7 +66,7 @@ struct Ray {
 Ray rayOf(vec3 start, vec3 along) {
     Ray ray;
     ray.start = placeInCells(start);
-    // Keep drawn heights where levels are uneven, because the ray is no straight line in levels.
+    // Keep drawn heights where levels are uneven, because the ray is not straight in levels.
 #ifdef HAS_UNEVEN_LEVELS
     ray.along = vec3(along.xy * perCell, along.z);
     ray.height = vec2(start.z, along.z);
