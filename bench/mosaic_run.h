@@ -3,8 +3,8 @@
 //
 // Each file is read, decompressed, decoded (REF alone, in memory) and gridded on its site's window
 // (pipeline::make_partial, by the default method for such cells: area). Then pipeline::make_frame()
-// makes a frame for each multiple of 5 minutes: for each site, it moves the echo of the volumes
-// just before and just after the instant to the instant, and merges the sites. The frame is
+// makes a frame for each multiple of 5 minutes. For each site, it takes the volumes just before and
+// just after this instant, moves their echo to the instant, and merges the sites. The frame is
 // committed to a cache. Nothing else is written. The daemon makes a frame again when a volume
 // changes it; this benchmark makes each frame once, as soon as all of its volumes exist.
 //

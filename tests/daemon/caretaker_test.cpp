@@ -29,8 +29,8 @@ class CaretakerTest : public ::testing::Test {
     std::unique_ptr<IngestSink> sink_;
 };
 
-// The caretaker has a pulse, by which the watchdog notices a hang, only while it works. It has no
-// pulse while it waits for files to be ingested, or an hour for the next round.
+// While the caretaker works, it has a pulse, by which the watchdog notices a hang. The caretaker
+// has no pulse while it waits: for files to be ingested, or an hour for the next round.
 TEST_F(CaretakerTest, RestsWhileThereIsNothingToDo) {
     ASSERT_TRUE(sink_);
     std::atomic<bool> idle = false;

@@ -1,5 +1,6 @@
-// Tests the keeper of directories into which other machines put partials. It must take complete
-// partials, wait for incomplete ones, and report machines that bring nothing.
+// Tests the keeper of directories into which other machines put partials (grids of one site each,
+// from which mosaics are merged). It must take complete partials, wait for incomplete ones, and
+// report machines that bring nothing.
 #include "daemon/partials/partials_keeper.h"
 
 #include <fstream>

@@ -1,4 +1,5 @@
-// tests/grid/made_partials.h -- partials of synthetic sites, for tests of merging.
+// tests/grid/made_partials.h -- partials (each is one site's grid on its part of a domain) of
+// synthetic sites, for tests of merging.
 #pragma once
 
 #include <algorithm>

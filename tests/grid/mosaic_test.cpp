@@ -1,5 +1,5 @@
-// Tests the rules of merging against the slow oracle and by hand. mosaic_bits_test.cpp tests what
-// must be the same to the bit.
+// Tests the rules of merging sites, by comparing cells with the slow oracle (slow_mosaic.h) and
+// with results computed by hand. mosaic_bits_test.cpp tests what must be the same to the bit.
 #include "stormcellar/grid/mosaic.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // tests/grid/slow_mosaic.h -- a slow and obvious form (oracle) of merging. It computes one cell at
-// a time, in long doubles, with a geodesic for every site and column and a list of what each site
-// sees of the cell.
+// a time, in long doubles. For every site and column it computes a geodesic, and for every cell it
+// lists what each site sees.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Tests that updated frames (mosaics) equal frames that are merged whole, bit for bit, with real
-// volumes of three sites in every order of arrival.
+// Tests frames (mosaics) that are updated when a volume comes. They must equal frames that are
+// merged whole, bit for bit, with real volumes of three sites in every order of arrival.
 #include "pipeline/mosaic/frame_parts.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// tests/pipeline/invented_partials.h -- partials of the small domain, which are made without a
-// volume.
+// tests/pipeline/invented_partials.h -- partials (each is one site's grid on its part of a domain)
+// that are made without a volume.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ inline UtcTime minute(int minutes) {
     return *parse_utc("2005-08-22T02:00:00Z", UtcTime{}) + std::chrono::minutes{minutes};
 }
 
-// The partial of a station that sees 32 x 32 columns of the small domain, unless set otherwise. The
-// volume begins at the minute and takes four minutes, so its middle is two minutes later.
+// A partial of the small domain. The station sees 32 x 32 columns of it, unless set otherwise. The
+// volume begins at `minute` and takes four minutes, so its middle is two minutes later.
 struct InventedPartial {
     std::string station = "KBGM";
     int minute = 0;

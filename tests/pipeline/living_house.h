@@ -1,5 +1,5 @@
-// tests/pipeline/living_house.h -- a catalog, a cache and an Ingestor that makes living grids, and
-// volumes that come piece by piece.
+// tests/pipeline/living_house.h -- a catalog, a cache and an Ingestor that makes living grids
+// (grids of growing volumes), and volumes that come piece by piece.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Compares mosaics (frames) that are updated as volumes come with mosaics that are made at once.
+// Compares mosaics (frames) that are updated whenever a volume comes with mosaics that are merged
+// once from all volumes.
 #include "pipeline/mosaic/mosaic_maker.h"
 
 #include <algorithm>

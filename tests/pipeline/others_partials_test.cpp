@@ -1,5 +1,6 @@
-// Tests partials that other machines made. The frames of the mosaic equal the frames that one
-// machine makes from all volumes. A late machine is left out and named, until it has caught up.
+// Tests partials (grids of one site each, from which mosaics are merged) that other machines made.
+// The frames of the mosaic equal the frames that one machine makes from all volumes. A late machine
+// is left out and named, until it has caught up.
 #include <fstream>
 #include <functional>
 #include <map>

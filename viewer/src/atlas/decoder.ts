@@ -1,4 +1,4 @@
-// Sends requests to the worker, and returns a promise of each answer.
+// Sends requests to the thread that decodes grids (worker.ts), and returns a promise of each answer.
 
 import { Answers, Numbered, WorkerAnswer, WorkerRequest } from './worker';
 
@@ -22,7 +22,8 @@ export class Decoder {
         };
     }
 
-    // Sends a request to the worker. Its bytes move to the worker, so the caller cannot use them afterwards.
+    // Sends a request to the worker. The bytes of the request move to the worker, so the caller cannot use them
+    // afterwards.
     ask<Kind extends WorkerRequest['kind']>(request: WorkerRequest & { kind: Kind }): Promise<Answers[Kind]> {
         const number = ++this.count;
         return new Promise<Answers[Kind]>((done, failed) => {

@@ -1,4 +1,4 @@
-// Declares grids as the renderer takes them: whole, or in parts.
+// Declares grids as the renderer takes them: whole grids, and grids in parts.
 
 import { PackedGrid } from '../wire/packed_grid';
 import { Atlas } from './atlas';

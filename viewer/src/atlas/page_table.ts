@@ -1,10 +1,11 @@
-// Makes the indirection of a grid in parts. Each brick of the grid gets the finest resident brick that covers it.
+// Makes the indirection of a grid in parts (atlas.ts). It gives each brick of the grid the slot of a brick in the atlas
+// that covers it: the finest such brick.
 
 import { pageEntry, putReaches } from './atlas';
 import { Pyramid } from './pyramid';
 
-// A column of bricks in the atlas, at a level. `slots` has the slot of each brick, from the bottom; -1 for a brick
-// without values.
+// A column of bricks in the atlas, at a level (number of halvings). `slots` has the slot of each brick, from the
+// bottom; -1 for a brick without values.
 export interface ResidentColumn {
     level: number;
     x: number;

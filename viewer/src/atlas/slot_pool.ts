@@ -1,5 +1,5 @@
-// Assigns slots of the atlas to columns of bricks. If slots run out, the least recently used columns lose their slots,
-// but pinned columns never do.
+// Assigns slots of the atlas (places for bricks in a texture; atlas.ts) to columns of bricks. If slots run out, the
+// least recently used columns lose their slots, but pinned columns never do.
 
 import { ResidentColumn } from './page_table';
 

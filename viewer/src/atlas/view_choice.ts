@@ -1,5 +1,5 @@
-// Chooses the columns of bricks that a view needs, and their levels. They cover the visible part of the grid, are no
-// finer than pixels show, and fit into the room.
+// Chooses the columns of bricks that a view needs, and their levels (numbers of halvings; pyramid.ts). The columns
+// cover the visible part of the grid, are no finer than pixels show, and fit into the room.
 
 import { ViewGeometry, Vec3 } from '../camera/geometry';
 import { Pyramid } from './pyramid';

@@ -1,5 +1,5 @@
-// Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md). A window covers all that a
-// view, a line or a ray meets, and is halved until it is within limits.
+// Chooses which window of a grid in parts to ask for (`window` of docs/web/packed-grid.md). A window is a rectangle of
+// columns that covers all that a view, a line or a ray meets. It is halved until it is within limits.
 
 import { Plane, cellSizeM } from '../earth/projection';
 import { PackedGrid } from '../wire/packed_grid';
