@@ -164,7 +164,7 @@ Result<Stretch> FeedRun::run(const StretchOptions& options, const std::string& c
     replaying.delivery = options.delivery;
     replaying.speed = options.speed;
     replaying.stop = &stop_;
-    // A whole file comes at once, so no file is half sent when the clock begins.
+    // A whole file is delivered in one step, so no file is half sent when the clock begins.
     if (options.delivery != synth::Delivery::whole)
         replaying.past_s = feed_.past_s() / options.speed;
     replaying.stamp = [](const synth::ReplayItem& item, std::span<std::byte> bytes) {

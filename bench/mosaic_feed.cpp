@@ -36,7 +36,7 @@ constexpr const char* storm_line = STORMCELLAR_SOURCE_DIRECTORY "/scenes/storm-l
 
 // The sites send these kinds, in turn.
 struct FeedKind {
-    std::vector<std::string> files;  // sent in turn; empty: the simulated storms
+    std::vector<std::string> files;  // files that are sent in turn; empty: the simulated storms
     std::chrono::minutes interval{10};
 
     [[nodiscard]] int volumes_an_hour() const {

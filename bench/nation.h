@@ -4,7 +4,7 @@
 // The grid has 7000 x 3500 columns at 0.01 degrees and the 33 levels of MRMS, 0.5 to 19 km. Storms
 // are in some 7 % of a site's bricks; all sites that see a place see the same storms there.
 // Partials are grid files of the cache, made once (some 1 GiB) and mapped, as in the daemon. The
-// new volume is a real one, KLOT 2022-03-17, moved to Des Moines.
+// new volume is the real volume KLOT 2022-03-17, moved to Des Moines.
 //
 // Threads   One thread at a time, because the clocks measure the whole process.
 #pragma once

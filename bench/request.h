@@ -29,7 +29,7 @@ struct Program {
 
 struct Request {
     int runs = 5;
-    std::vector<int> threads = {1, 2};  // numbers of threads to measure with, in turn
+    std::vector<int> threads = {1, 2};  // numbers of threads; each is measured
     bool json = false;
     std::optional<std::filesystem::path> data;  // --data, a directory
     std::vector<std::filesystem::path> files;

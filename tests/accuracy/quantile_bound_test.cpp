@@ -203,8 +203,8 @@ TEST(QuantileBound, TakingCellsForIndependentWouldMiss) {
 }
 
 TEST(QuantileBound, StrataDrawnUnevenlyAreCovered) {
-    // One tenth of the columns are near the radar and are bad more often. The sample draws as many
-    // columns from this tenth as from all other columns together.
+    // One tenth of the columns are near the radar and are bad more often. Half of the sample comes
+    // from this tenth, and half from all other columns.
     Random random(13);
     const BoundRequest request{0.95, 0.9};
     const Columns near{0.3, 20, 20};

@@ -196,7 +196,7 @@ TEST(ArchiveReader, ManyLongHeadersEndItToo) {
     EXPECT_LT(names(100'000, 60), 50U);
 }
 
-// 2026-11-28: each archive inside an archive could unpack as many bytes as the bound allows, only
+// 2026-11-28: each archive inside an archive could unpack all the bytes that the bound allows, only
 // to skip them.
 TEST(ArchiveReader, WhatInnerArchivesPassOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);

@@ -79,7 +79,7 @@ TEST_F(BatchEngines, OnlyWhatIsMissingIsSubmitted) {
     EXPECT_THAT(jobs({}), IsEmpty());
 }
 
-// If an array may have 7 elements, each gets three of the 20 tasks, and the last one two.
+// If an array may have 7 elements, each gets three of the 20 tasks, and the last element gets two.
 TEST_F(BatchEngines, AnArrayHasNoMoreElementsThanSlurmTakes) {
     const auto all = jobs(numbers(20), {.array_size = 7});
     EXPECT_THAT(all.at(0).text, HasSubstr("#SBATCH --array=0-6\n"));

@@ -76,7 +76,7 @@ class PlayedFeed : public ::testing::TestWithParam<synth::Delivery> {
     testing::TemporaryDirectory drop_;
 };
 
-// Writes at once all chunks that are due in the first 1.6 periods, and then stops the replay.
+// Writes, without pauses, all chunks that are due in the first 1.6 periods. Then stops the replay.
 TEST_P(PlayedFeed, GivesEachVolumeAtItsTimeAsTheSiteWouldSendIt) {
     STORMCELLAR_NEED_DATA();
     const auto volumes = feed().volumes(2 * feed().period_s());

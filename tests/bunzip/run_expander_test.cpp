@@ -11,7 +11,8 @@ namespace {
 
 using Octets = std::vector<std::uint8_t>;
 
-// Expands a block as the format describes it. The last byte of `packed` is behind the block.
+// Expands a block as the format describes it. The last byte of `packed` follows the block and does
+// not belong to it.
 Octets slowly(const Octets& packed) {
     Octets out;
     std::size_t alike = 0;

@@ -61,7 +61,7 @@ std::string note_of(const fs::path& path) {
 
 // Expects that every grid is whole, and that the cache is within its budget now and after the next
 // start. No temporary file may be left after that start. The newest promised grid must exist, as it
-// was promised or replaced by a later one.
+// was promised or replaced by a later grid.
 void check(const fs::path& cache, const Promises& promised) {
     if (!fs::exists(cache)) return;
     EXPECT_LE(testing::allocated_bytes(cache), budget);

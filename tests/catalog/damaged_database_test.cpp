@@ -233,7 +233,8 @@ TEST_F(DamagedDatabase, ADatabaseThatIsDeletedUnderTheWriterIsMadeAgain) {
     EXPECT_EQ(reader.list("KTLX", {})->size(), 1U);
 }
 
-// A repair first writes the new database, so the old or the new one exists after each later step.
+// A repair first writes the new database, so the old or the new database exists after each later
+// step.
 TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
     fill(0, 200);
     damage_page_with(facts_of(100).path);
@@ -245,7 +246,8 @@ TEST_F(DamagedDatabase, ARepairThatWasCutShortIsFinishedOrBegunAgain) {
         EXPECT_GT(expect_true_rows(catalog), 100U);
     }
     EXPECT_FALSE(fs::exists(mending));
-    // The damaged database was set aside, but not its WAL, and the new one is not yet in its place.
+    // The damaged database was set aside, but not its WAL, and the new database is not yet in its
+    // place.
     fs::rename(database_, mending);
     std::ofstream(database_.native() + "-wal") << "the damaged one's";
     auto catalog = *CatalogWriter::open(catalog_);

@@ -37,7 +37,7 @@ FileFacts facts_of(int number, FileState state, const std::string& station = "KT
     return facts;
 }
 
-// The requests that returned success, and the one that did not return.
+// The requests that returned success, and the request that did not return.
 struct Progress {
     std::map<fs::path, FileState> answered;
     std::optional<std::pair<fs::path, FileState>> asked;  // did not return; the row may exist

@@ -31,8 +31,8 @@ class PowerCutVfs {
     PowerCutVfs& operator=(const PowerCutVfs&) = delete;
     ~PowerCutVfs();
 
-    // Lets the operation of this number and all later ones fail. Writes, cuts, syncs, deletions and
-    // new files are counted, from 0.
+    // Makes the operation with this number fail, and all later operations. Writes, cuts, syncs,
+    // deletions and new files are counted, from 0.
     void fail_from(std::uint64_t operation) { fail_from_ = operation; }
     [[nodiscard]] std::uint64_t operation_count() const { return operations_; }
     // Puts the disk into a state after a crash. Call it when every database is closed. Later

@@ -317,7 +317,7 @@ TEST_F(ConfigFile, PathsWithinOneAnotherAreRefused) {
               "directories must be separate");
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/x\"\ncache = \"/x\"\n").substr(0, 9),
               "s.toml:3:");
-    // A directory is not within another one only because its name begins with the other name.
+    // A directory is not within another directory only because its path begins with the other path.
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/d2\"\ncache = \"/d3\"\n"),
               "no complaint");
 }

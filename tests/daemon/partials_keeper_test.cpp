@@ -190,7 +190,7 @@ TEST_F(PartialsKeeperTest, AStationComesFromTheMachinesThatListItAlone) {
 }
 
 // 2026-11-28: an empty partial with the time of an honest partial and a later end replaced the
-// honest one in every frame, and nothing was logged.
+// honest partial in every frame, and nothing was logged.
 TEST_F(PartialsKeeperTest, APartThatReplacesThatOfAnotherMachineIsNamed) {
     start();
     bring("north", early);
@@ -230,7 +230,7 @@ TEST_F(PartialsKeeperTest, TheSamePartOfTwoMachinesReplacesNothing) {
     bring("south", later);
     ASSERT_TRUE(testing::eventually([&] { return south().taken == 1; }));
     bring("south", later);
-    // The keeper takes the newest partial first, so it takes this one after all others.
+    // The keeper takes the newest partial first, so it takes this partial after all others.
     bring("south", first_of_all);
     EXPECT_TRUE(testing::eventually([&] { return south().taken == 2; }));
     EXPECT_EQ(north().replaced + south().replaced, 0U);

@@ -246,7 +246,7 @@ TEST_F(Recovery, KilledWhileItWorks) {
             ++whole;
         }
     }
-    // Remove the last status of the killed daemon, so that the test waits for a new one.
+    // Remove the last status of the killed daemon, so that the test waits for a new status.
     fs::remove(daemon_.cache().parent_path() / "state" / "status.json");
     daemon_.start("[ingest]\nspacing_km = 2\n");
     ASSERT_TRUE(daemon_.wait_for([](const json& s) {

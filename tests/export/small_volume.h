@@ -46,7 +46,7 @@ inline level2::SweepMoment wide_moment(level2::Moment name, const std::vector<Ro
     return made;
 }
 
-// Makes as many radials as the moments have rows, a tenth of a second and a degree apart.
+// Makes a radial for each row of the moments. Radials are a tenth of a second and a degree apart.
 inline level2::Sweep small_sweep(int number, std::vector<level2::SweepMoment> moments) {
     level2::Sweep made;
     made.elevation_number = number;

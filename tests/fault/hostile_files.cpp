@@ -154,8 +154,8 @@ Bytes endless_bytes(Claims claims, unsigned radials, unsigned gates) {
     claims.gates = gates;
     claims.word_bits = 16;
     claims.code = 0x0404;  // two equal bytes, because equal bytes are compressed fastest
-    // Use the second record for all later ones, too, because making records takes most of a test's
-    // time.
+    // Repeat the second record instead of making more, because making records takes most of a
+    // test's time.
     const auto record = [&](Mark first) {
         Writer messages;
         for (unsigned radial = 0; radial < radials_per_record; ++radial)

@@ -25,7 +25,7 @@ struct Claims {
     unsigned sweeps = 1, radials = 360, gates = 100;
     unsigned word_bits = 8;
     unsigned code = 100;     // of the gates
-    bool is_varied = false;  // true: instead, each radial has a code of its own
+    bool is_varied = false;  // true: each radial has its own code, and `code` is not used
     float scale = 2, offset = 66;
 };
 

@@ -34,7 +34,7 @@ enum class Attack : std::uint8_t {
     endless,    // a file whose sweep never ends, of 5 or 50 MB unpacked, or an unfinished record
     growth,     // further bytes for an endless file
     unsettled,  // a file that cannot be gridded, has no end, or has no meaning
-    chunk,      // a chunk of one of hundreds of volumes, whose chunks come in turn without end
+    chunk,      // a chunk of one of hundreds of volumes, which take turns without end
     rename,     // a file is renamed, or a directory is renamed and renamed back
     link,       // a symbolic link that leads out, dangles or loops
     special,    // a FIFO or a socket

@@ -1,8 +1,5 @@
 // Tests files that the service might read again and again: files that cannot be gridded, and chunks
-// of many volumes in turn.
-#include <array>
-#include <chrono>
-#include <cstdio>
+// of many volumes that take turns. include <array> include <chrono> include <cstdio>
 
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
@@ -75,7 +72,8 @@ class Openings {
     std::size_t count_ = 0;
 };
 
-// Delivers more volumes of chunks than the service follows at once, one chunk of each in turn.
+// Delivers the chunks of many volumes, one chunk of each volume in turn. The service cannot follow
+// so many volumes at the same time.
 TEST_F(HostileCases, ChunksOfManyVolumesInTurnAreNotReadAgainAndAgain) {
     constexpr int volumes = 350, chunks = 10;
     const UtcTime time = now_utc() - std::chrono::minutes{5};

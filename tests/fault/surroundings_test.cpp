@@ -28,8 +28,8 @@ constexpr Way ways[] = {Way::whole, Way::growing, Way::open, Way::chunks};
 
 class Surroundings : public ::testing::Test {
   protected:
-    // Delivers `volumes` volumes, in all ways in turn, and a real volume and junk with every eighth
-    // volume.
+    // Delivers `volumes` volumes by the four ways in turn. With every eighth volume, it also
+    // delivers junk and a real volume.
     void deliver_some(int volumes) {
         for (int i = 0; i < volumes; ++i) {
             put(shipments_.volume(ways[i % 4]));
@@ -243,8 +243,8 @@ TEST_F(Surroundings, EventsThatTheKernelDropped) {
     stop_and_look();
 }
 
-// One rename of a directory makes many files appear, while as many other files are being written,
-// with volumes in between.
+// One rename of a directory makes many files appear. At the same time, the same number of other
+// files is written, with volumes among them.
 TEST_F(Surroundings, ManyFilesAtOnce) {
     const int files = number_of("STORMCELLAR_FAULT_FILES", 4000);
     const fs::path prepared = daemon_.running().root() / "prepared";

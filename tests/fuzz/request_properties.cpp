@@ -107,7 +107,7 @@ void check_entity(const Request& request) {
     if (!range.empty()) return check_part(body, range, whole);
     require(header_of(answer, "Content-Type").starts_with("multipart/byteranges"),
             "a 206 of several parts does not say so");
-    // An answer has at most sixteen parts, each with lines of its own.
+    // An answer has at most sixteen parts, and each part adds some lines.
     require(body.size() <= 16 * (whole.size() + 200) + 100, "the parts have {} bytes", body.size());
 }
 

@@ -258,8 +258,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Expected{"volumes/KTLX19990503_235621.gz", {4, 1.1, 0.9}, 0.98},
                       Expected{"volumes/KLOT20220317_000842_V06", {4.8}, 0.96}));
 
-// Turns the antenna by half a degree over real echo. The grid no longer fits its gates, except for
-// gates near the radar, which hardly move.
+// Turns the antenna by half a degree over real echo. The grid no longer fits its gates. Only gates
+// near the radar still fit, because they hardly move.
 TEST(Audit, ARealVolumeTurnedByHalfADegreeShowsIt) {
     STORMCELLAR_NEED_DATA();
     Real of = real("volumes/KTLX19990503_235621.gz");

@@ -14,7 +14,7 @@ double turn(double a_deg, double b_deg) {
     return std::min(step_deg, 360 - step_deg);
 }
 
-// Finds the nearest radial by brute force, or the later one if two are equally near. A radial
+// Finds the nearest radial by brute force, or the later radial if two are equally near. A radial
 // farther than half a spacing counts only if its neighbor on the other side of the azimuth is
 // within 1.5 spacings of the radial. Sets `margin_deg` to how close the decision is.
 int slow_find(const std::vector<float>& azimuths_deg, double spacing_deg, double azimuth_deg,

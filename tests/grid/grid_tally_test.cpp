@@ -46,7 +46,7 @@ GridTally tally_of(const std::vector<std::vector<Cell>>& grids,
     return tally;
 }
 
-constexpr std::size_t column = 17 * 20 + 19;  // the last one
+constexpr std::size_t column = 17 * 20 + 19;  // the last column
 
 const std::vector<std::vector<Cell>> four_grids = {
     {{19, 17, 0, CellStatus::value, 20}, {19, 17, 1, CellStatus::value, 42.5}},

@@ -103,7 +103,7 @@ TEST(SweepTimes, AreThoseOfTheRadials) {
 }
 
 // Regression of 2026-11-28: half the sweeps of a volume had the date of another year, so echo moved
-// so far that the columns to read took 8.7 GB.
+// very far, and reading the columns on its way took 8.7 GB.
 TEST(SweepTimes, OfAnotherDayAreNone) {
     level2::Volume volume =
         make_volume({{.elevation_deg = 0.5, .cut = 1}, {.elevation_deg = 2.4, .cut = 2}});

@@ -40,8 +40,8 @@ struct UnpackedVolume {
 [[nodiscard]] UnpackedVolume unpack(std::span<const std::byte> file,
                                     std::optional<std::uint64_t> stream_limit = std::nullopt);
 
-// Returns the first records of a volume in records, and the last one: at most `most_bytes`
-// compressed bytes, but at least three records.
+// Returns a volume with only the first records and the last record: at most `most_bytes` compressed
+// bytes, but at least three records.
 [[nodiscard]] UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes);
 // Returns a plain stream of the metadata without its fill frames, the first messages, and the last
 // few messages.

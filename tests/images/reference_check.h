@@ -16,7 +16,7 @@ namespace stormcellar::images {
 // Succeeds if the picture equals its reference within the tolerance. If not, the message names a
 // directory with the picture, the reference and their difference. With
 // STORMCELLAR_UPDATE_REFERENCES set (scripts/update-image-references), a reference that differs or
-// is missing is written anew.
+// is missing is replaced by the picture.
 [[nodiscard]] ::testing::AssertionResult matches_reference(const render::Image& picture,
                                                            const std::string& name);
 

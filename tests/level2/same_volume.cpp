@@ -6,7 +6,7 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Compares headers, patterns and starts of the volumes after the first one.
+// Compares headers, patterns and starts of all volumes but the first.
 std::string further_difference(const DecodeReport& x, const DecodeReport& y) {
     const bool same_headers = std::equal(
         x.further_headers.begin(), x.further_headers.end(), y.further_headers.begin(),

@@ -230,8 +230,8 @@ TEST(FragmentBuilderLimit, RowsOfLyingLengthStopAtTheLimit) {
     EXPECT_LT(taken, 160);
 }
 
-// Each radial has another scale, so each needs a table of its own, with a row for every radial of
-// the sweep.
+// Each radial has another scale, so it needs its own table, which has a row for every radial of the
+// sweep.
 TEST(FragmentBuilderLimit, RowsOfManyKindsStopAtTheLimitOfASweep) {
     const std::vector<std::byte> codes(1000);
     const int taken = radials_taken(ample, 1000, [&](int number) {

@@ -60,7 +60,8 @@ Bytes message_31_with_block(std::span<const std::byte> block);
 // Returns a message 31 with everything after its data header block compressed, by bzip2 (indicator
 // 1) or zlib (2) (table XVII-A).
 Bytes compressed_message_31(const Bytes& message, int indicator);
-// Returns a frame of message 1 with REF, and with VEL and SW of twice as many gates.
+// Returns a frame of message 1 with REF, VEL and SW. VEL and SW have twice the number of gates of
+// REF.
 Bytes message_1(const Ray& ray);
 // Returns a frame of message 5 with a pattern of these elevations.
 Bytes vcp_frame(unsigned pattern, std::span<const float> elevations_deg);

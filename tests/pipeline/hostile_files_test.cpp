@@ -104,7 +104,7 @@ TEST_F(Hostile, AGrowingFileBehindALinkIsNotFollowed) {
     EXPECT_FALSE(FollowedFile::growing(drop() / "day/KTLX_a", drop()));
 }
 
-// Returns two records with one sweep each. The first one does not end the volume.
+// Returns two records with one sweep each. The first record does not end the volume.
 std::array<wire::Bytes, 2> two_records() {
     const auto messages = wire::radial_messages(2, 360);
     const std::span all{messages};
@@ -170,7 +170,8 @@ TEST_F(Hostile, AStationHasNoMoreGridsOfAnHourThanARadarMakes) {
         << "the grids that were written first should be removed";
 }
 
-// 2026-11-25: when a followed file had grown to 1 GiB of zeros, all of it was read at once, twice.
+// 2026-11-25: when a followed file had grown to 1 GiB of zeros, all of it was read in one go,
+// twice.
 TEST_F(Hostile, AFollowedFileThatGrowsAsItEndsIsReadNoFurther) {
     const wire::Bytes whole = wire::ldm_volume(3, 360);
     const fs::path path = put(drop() / "KTLX_grows", whole);

@@ -78,7 +78,7 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     const auto again = ingestor_.ingest_again(volumes()[1].path);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(again->result(), IngestResult::gridded);
-    // Another member in the place of the cataloged one is refused.
+    // Another member in the place of the cataloged member is refused.
     auto others = two_volumes();
     others[2].bytes = real("KBGM20050822_024414.gz");
     put("order.zip", archive::make_archive(archive::Kind::zip, others));
@@ -87,7 +87,7 @@ TEST_F(IngestArchiveTest, AMemberIsReadAgainFromItsArchive) {
     EXPECT_EQ(changed.error().code, ErrorCode::corrupt);
 }
 
-// 2026-11-28: the second member was not found, because the larger first one was skipped without
+// 2026-11-28: the second member was not found, because the larger first member was skipped without
 // being counted.
 TEST_F(IngestArchiveTest, TheSecondMemberOfANameIsReadAgain) {
     const auto larger = real("KBGM20050822_024414.gz"), smaller = real("KBGM20050822_025549.gz");

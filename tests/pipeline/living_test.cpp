@@ -153,8 +153,8 @@ TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
         EXPECT_EQ(together.grids("KLOT", moment).size(), 2U);
 }
 
-// The living grid must equal the grid of a volume that this test composes: the last volume's old
-// sweeps, followed by the new ones.
+// The living grid must equal the grid of a volume that this test composes: old sweeps of the last
+// volume, followed by the new sweeps.
 TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     const std::vector<std::byte> first_bytes = real_bytes(busy);
     const fs::path first_path = directory_ / "KLOT20220317_000842_V06";

@@ -290,8 +290,8 @@ TEST_F(OthersPartials, AFrameOfPartsWithManyNotesIsMade) {
     EXPECT_THAT(notes.back(), HasSubstr("more notes"));
 }
 
-// 2026-11-28: 930 partials of a station within an hour were kept, and each new one opened all of
-// them.
+// 2026-11-28: 930 partials of a station within an hour were kept, and each new partial opened all
+// of them.
 TEST_F(OthersPartials, AStationHasNoMorePartsOfAnHourThanARadarMakes) {
     const auto one = node("one");
     take(*one, "all", other_first);

@@ -1,5 +1,5 @@
-// Tests that a catalog is made again from raw files, and from the readable rows of a damaged one.
-#include "pipeline/care/rebuild_catalog.h"
+// Tests that a catalog is made again from raw files, and from the readable rows of a damaged
+// catalog. include "pipeline/care/rebuild_catalog.h"
 
 #include <fstream>
 

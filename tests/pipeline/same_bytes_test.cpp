@@ -18,7 +18,7 @@ using Files = std::map<fs::path, std::vector<std::byte>>;
 // The facts that are local to a machine.
 struct Local {
     std::string before, behind;  // added to the names of files
-    std::chrono::hours age{0};   // of the first file; each next one is an hour older
+    std::chrono::hours age{0};   // age of the first file; each next file is an hour older
     int threads = 1;
     bool newest_first = false;
 };

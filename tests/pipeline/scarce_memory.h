@@ -6,10 +6,10 @@
 
 namespace stormcellar::pipeline {
 
-// While the object exists, this thread gets `allocations` allocations of 1 KiB or more, and
-// std::bad_alloc for all later ones. Smaller allocations always succeed, because a system refuses
-// large ones first, and because the C++ library ends the process if a small one fails in a noexcept
-// function (directory_iterator's constructor).
+// While the object exists, this thread gets `allocations` allocations of 1 KiB or more. All later
+// allocations of this size throw std::bad_alloc. Smaller allocations always succeed, because a
+// system refuses large ones first, and because the C++ library ends the process if a small one
+// fails in a noexcept function (directory_iterator's constructor).
 class WithMemoryFor {
   public:
     explicit WithMemoryFor(std::int64_t allocations);

@@ -178,7 +178,7 @@ TEST(SmoothTables, ValuesFarApartDifferForEveryKindOfSight) {
     }
 }
 
-// A table without classes has no jump: each stop begins with the color in which the previous one
+// A table without classes has no jump. Each stop begins with the color in which the previous stop
 // ends.
 TEST(SmoothTables, HaveNoClassesAndRiseInLightness) {
     for (const char* name :

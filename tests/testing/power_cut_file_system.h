@@ -30,7 +30,7 @@ class PowerCutFileSystem final : public FileSystem {
     Status sync_directory(const fs::path& directory) override;
     Status remove(const fs::path& path) override;
 
-    // Makes the operation with this number (counted from 0) and all later ones fail with io.
+    // Makes the operation with this number (counted from 0) and all later operations fail with io.
     void fail_from(std::uint64_t operation) { fail_from_ = operation; }
     void set_space(std::uint64_t bytes) { space_ = bytes; }
     [[nodiscard]] std::uint64_t operation_count() const { return operations_; }

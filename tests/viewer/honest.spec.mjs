@@ -82,7 +82,7 @@ test.describe('a link to missing data', () => {
     // A name with more than four numbers is not a region.
     await viewer.turnTo(`domain=${encodeURIComponent('region:-100,33,-95,37,/REF;x')}`);
     await expect(says.notice).toContainText('No data for region');
-    // Let the page write its own address before it takes the new one.
+    // Let the page write its own address before it takes the new address.
     await page.evaluate((own) => {
       location.hash = 'domain=KYYY&moment=REF';
       history.replaceState(null, '', `#${own}`);

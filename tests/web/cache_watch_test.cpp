@@ -60,7 +60,7 @@ TEST(CacheWatch, AChangeThatCouldNotBeToldIsALookAtEverything) {
 }
 
 // 2026-11-29: a grid that was removed before the watch read its first event was never reported as
-// gone. The test reads both events at once, as a busy watch does.
+// gone. The test reads both events in one call, as a busy watch does.
 TEST(CacheWatch, AGridThatCameAndWentUnreadIsToldAsGone) {
     const testing::TemporaryDirectory directory;
     auto store = *cache::StoreWriter::open(real_file_system(), directory / "cache", false);

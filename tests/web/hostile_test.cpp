@@ -212,8 +212,8 @@ TEST_F(HostileClients, ChangedRequestsDoNotHurt) {
     EXPECT_EQ(status_at(grid_path), 200);
 }
 
-// Many honest clients at once get the bytes that one gets, and memory stays within what
-// [web.limits] allows.
+// Many honest clients at the same time each get the bytes that a lone client gets. Memory stays
+// within the limits of [web.limits].
 TEST_F(HostileClients, ManyClientsGetTheBytesThatOneGets) {
     constexpr std::size_t clients = 16;
     const std::size_t requests = count_from_environment("STORMCELLAR_WEB_REQUESTS", 300);

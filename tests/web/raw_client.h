@@ -35,7 +35,7 @@ class RawClient {
     bool has_ended_ = false;
 };
 
-// Returns the number behind "HTTP/1.1 "; 0 if there is none.
+// Returns the number after "HTTP/1.1 "; 0 if there is none.
 [[nodiscard]] int status_in(std::string_view answer);
 [[nodiscard]] std::string body_in(std::string_view answer);
 

@@ -220,7 +220,7 @@ TEST_F(Region, LargeOnesAreCoarserAndLargerOnesRefused) {
     EXPECT_EQ(far_too_large.error().code, ErrorCode::bad_argument);
 }
 
-// 2026-11-28: a comma behind the last number was accepted, so links could have more text behind it.
+// 2026-11-28: a comma after the last number was accepted, so links could have more text after it.
 TEST_F(Region, ItsNameIsFourNumbersAndNothingElse) {
     EXPECT_TRUE(region_box_of("-80,40,-75,43"));
     for (const char* name : {"-80,40,-75,43,", "-80,40,-75,43,1", "-80,40,-75", "-80,40,-75,", ""})
@@ -245,7 +245,7 @@ TEST_F(Region, TheApiNamesSitesTimesAndPathsAndPacksThem) {
     EXPECT_EQ(header.size, bytes.size());
     EXPECT_EQ(header.nx, ref["nx"]);
     EXPECT_EQ(header.site_count, 2u);
-    // The second answer is the kept first one, until a grid of a site changes.
+    // The door keeps the first answer and gives it again, until a grid of a site changes.
     EXPECT_EQ(body_of(asked(*door_, path)), bytes);
     commit(grid_of("KBGM", 30, testing::noon));
     grids_->refresh();

@@ -134,7 +134,7 @@ TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
     EXPECT_EQ(status(), 200);
 }
 
-// 2026-11-28: the old server ended although its end could not help the new one.
+// 2026-11-28: the old server ended although that could not help the new server.
 TEST_F(Reload, AnAddressOfAnotherMachineLeavesTheServerAsItWas) {
     start();
     RawClient kept(port_);
@@ -181,7 +181,7 @@ TEST_F(Reload, AServerThatListensNowhereTriesAgain) {
             }
         });
         EXPECT_TRUE(testing::eventually([&] { return has_all.load(); }));
-        // The new address conflicts with the old one, so the old server must end first.
+        // The new address conflicts with the old address, so the old server must end first.
         setup_.web.listen = {{i % 2 == 0 ? "0.0.0.0" : "127.0.0.1", port_}};
         const Status done = service_->reload(setup_);
         const std::string why = done ? std::string{} : done.error().message;

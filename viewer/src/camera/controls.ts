@@ -30,8 +30,8 @@ export function lookAtOf(camera: Camera, geometry: ViewGeometry): Vec3 {
 export function panned(camera: Camera, geometry: ViewGeometry, dx: number, dy: number): Camera {
     const at = lookAtOf(camera, geometry);
     const scale = geometry.metersPerPixel;
-    // A drag up or down moves the scene along the view's direction on the ground. The nearer the view is to horizontal,
-    // the more meters a pixel of the drag is, up to five times as many as from above.
+    // A drag up or down moves the scene along the view's direction on the ground. A pixel of the drag is more meters if
+    // the view is nearer to horizontal: up to five times the meters of a view from above.
     const ahead: Vec3 = [
         -Math.sin((camera.azimuthDeg * Math.PI) / 180),
         -Math.cos((camera.azimuthDeg * Math.PI) / 180),

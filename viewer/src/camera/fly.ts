@@ -28,7 +28,7 @@ export function takenOff(camera: Camera, window: Window): Camera {
     const now = geometryOf(camera, window);
     const lookAt = camera.lookAtM;
     const target: Vec3 = lookAt ? [lookAt[0], lookAt[1], lookAt[2] * window.exaggeration] : now.middle;
-    // The picture shows as many meters across the target as before.
+    // Across the target, the picture shows the same width in meters as before.
     const across = now.metersPerPixel * window.width;
     const back = across / 2 / Math.tan((flownFieldDeg * Math.PI) / 360);
     return withEye({ ...camera, fieldOfViewDeg: flownFieldDeg, zoom: 1 }, window, plus(target, -back, now.forward));

@@ -13,7 +13,7 @@ export interface Section {
     topM: number;
     field: FlatField; // columns from the first place to the second, rows from the bottom up
     inGrid: Uint8Array; // 1 for columns of the field that are in the grid, else 0
-    ends: Plane[]; // where columns begin, and where the last one ends; NaN where the plane has no place
+    ends: Plane[]; // where columns begin, and where the last column ends; NaN where the plane has no place
 }
 
 // Returns the two cells on both sides of a place along an axis, and the weight of the second; null beyond the cells.

@@ -1,4 +1,4 @@
-// Writes the view into the address of the page, at once or, while something moves, now and then. Browsers take long to
+// Writes the view into the address of the page: at once, or now and then while something moves. Browsers take long to
 // show an address, and some refuse to do it often.
 
 import { ViewState, stateOf } from '../scene/view_state';

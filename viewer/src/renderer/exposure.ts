@@ -4,7 +4,7 @@
 import { ViewGeometry } from '../camera/geometry';
 import { RayView } from './echo_tiles';
 
-const stride = 5; // a pixel of the small picture stands for stride x stride pixels
+const stride = 5; // a pixel of the small picture covers stride x stride pixels
 const [leastExposure, mostExposure] = [0.7, 1.4];
 const halvings = 10;
 

@@ -202,7 +202,8 @@ export const gridPath = (domain: string, moment: string, time: string): string =
         : `api/v1/grids/${encodeURIComponent(domain)}/${moment}/${encodeURIComponent(time)}`;
 export const rawPath = (station: string, name: string): string =>
     address(`volumes/${encodeURIComponent(station)}/${encodeURIComponent(name)}`);
-// Returns a packed grid, or a part of one. docs/web/packed-grid.md describes the parameters in `query`.
+// Returns a packed grid, or a part of a grid in packed form. docs/web/packed-grid.md describes the parameters in
+// `query`.
 export function packed(
     domain: string,
     moment: string,

@@ -15,8 +15,8 @@ export const enum CellState {
     value = 3,
     ambiguous = 5, // in derived moments: echo whose value cannot be derived
 }
-// Bricks store and count codes from this one on. In derived moments this code means ambiguous, and values begin at the
-// next one, `PackedGrid.firstCode`.
+// Bricks store and count this code and all codes above it. In derived moments this code means ambiguous, and values
+// begin at the next code, `PackedGrid.firstCode`.
 export const firstValueCode = 3;
 
 export const enum BrickKind {

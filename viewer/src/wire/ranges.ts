@@ -2,7 +2,7 @@
 
 export interface BrickRange {
     first: number;
-    end: number; // one behind the last brick
+    end: number; // number of the last brick plus 1
 }
 
 // Returns ranges of bricks that hold the columns, each of `layers` bricks. Columns share a range if the columns between

@@ -41,7 +41,7 @@ function save(app: App, drawing: Drawing): void {
 const savedFiles = new Set<string>(); // names of the files of colors that were saved for commands
 
 // Finds the raw file of the grid, if there is just one. A command that reads this file needs no cache. The page asks
-// for the file before a click on the button, because browsers allow copying only at once after a click.
+// for the file before a click on the button, because browsers allow copying only directly after a click.
 class RawFile {
     private of: LoadedGrid | null = null;
     private name = '';

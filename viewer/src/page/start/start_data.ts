@@ -9,7 +9,7 @@ import { Outline } from './painter';
 
 const pictured = 'REF';
 const mostPicturedStations = 12; // most stations that are drawn at a time
-const mostBehindMs = 20 * 60 * 1000; // a mosaic is not drawn if it is farther behind a radar in it
+const mostBehindMs = 20 * 60 * 1000; // a mosaic is not drawn if a radar in it has a grid newer by more than this
 const usualReachM = 230_000; // half of the width of a radar's own grid
 
 export interface SeenDomain {

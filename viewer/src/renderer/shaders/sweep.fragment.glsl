@@ -9,7 +9,7 @@ void main() {
     // Look up the nearest radial by azimuth. The azimuths fill rows of the texture.
     int step_ = int(clamp(at.x * float(AZIMUTH_STEPS / 360), 0.0, float(AZIMUTH_STEPS - 1)));
     uvec2 radial = texelFetch(radials, ivec2(step_ % RADIALS_ACROSS, step_ / RADIALS_ACROSS), 0).rg;
-    // Draw nothing before the first gate and behind the last. Azimuths without a radial are not seen.
+    // Draw nothing before the first gate and after the last. Azimuths without a radial are not seen.
     int gate = int(floor(gateLine.x + gateLine.y * at.y));
     if (gate < 0 || (radial.x != NO_RADIAL && gate >= int(radial.y))) discard;
     if (radial.x == NO_RADIAL) {

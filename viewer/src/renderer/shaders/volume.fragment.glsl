@@ -72,7 +72,7 @@ void main() {
     uint entry = 0u;
     // Begin one step before the ray enters the box. This step ends where the ray enters, and shows nothing.
     for (float k = max(0.0, floor(max(first, (reach.x - near) / stepM))) - 1.0; k < last && through >= enough;) {
-        // Read the entry of the brick at the far end of the step, unless the ray is still in the same one.
+        // Read the entry of the brick at the far end of the step, unless the ray is still in the same brick.
         vec3 cell = cellAt(ray, clamp(k + 1.0, first, end));
         ivec3 brick = ivec3(cell * (1.0 / edge));
         for (; brick != held; held = brick) {
@@ -85,8 +85,8 @@ void main() {
         if (!isClear) found = fetchAt(cell, placeOf(brick, entry, slotsHere), perTexelHere);
         vec2 back = sampleOf(found, binLineHere);
         vec4 look = lookBetween(front, back);
-        // Composite the step behind what the ray has seen. Its optical depth is scaled by the part of the step in the
-        // box, and by the mean share of cells with values at both ends, so that echo tapers off.
+        // Composite the step behind all earlier steps. Its optical depth is scaled by the part of the step in the box,
+        // and by the mean share of cells with values at both ends, so that echo tapers off.
         float inside = max(0.0, min(k + 1.0, end) - max(k, first));
         float seen = through * (1.0 - exp(-look.a * depthOfHalf * (front.y + back.y) * inside));
         light += seen * look.rgb;
