@@ -97,7 +97,7 @@ std::uint64_t operations_of_a_whole_life() {
 
 enum class Ending { failure, power_cut };
 
-// Runs live() on a disk on which every operation from number `at` on fails, and checks what
+// Runs live() on a disk that fails at operation `at` and at all later operations. Then checks what
 // remains.
 void live_until(std::uint64_t at, Ending ending) {
     SCOPED_TRACE(at);

@@ -158,7 +158,7 @@ void expect_bound(const SitePosition& site, const GridSpec& spec, FrameKind kind
     EXPECT_LT(reach_m(site, spec), 1.02 * measured.farthest_m);
 }
 
-// Uses grids all around their site, whose centers are away from the site.
+// Uses grids whose centers are away from the site, in all directions.
 TEST(FrameLadder, TheBoundOfEachRungHoldsForWholeGridsAndIsTight) {
     double longitude_deg = -97.3;
     for (const double latitude_deg : {78.0, 65.0, 45.0, 35.0, 2.0, -30.0, -71.0}) {

@@ -1,5 +1,4 @@
-// Tests the sampling of a scene, and what the planner does with it.
-#include <cmath>
+// Tests the samples of a scene, and the plans that are made from them. include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -26,8 +26,8 @@ std::uint32_t extreme(std::uint32_t was, std::size_t width, Random& random) {
     return numbers[below(random, width == 4 ? 13 : 10)] & most;
 }
 
-// Overwrites a field, whose offset counts from `start`, and returns a text about the change, or an
-// empty text if the field is beyond the end.
+// Overwrites a field. Its offset counts from `start`. Returns a text about the change, or an empty
+// text if the field is beyond the end.
 std::string overwrite(Bytes& bytes, std::size_t start, const MessageField& field, Random& random) {
     const std::size_t at = start + field.at;
     if (at + field.width > bytes.size()) return {};

@@ -184,7 +184,8 @@ TEST_F(SweepField, TheFooterTellsTheSweepAndTheView) {
               "Cut 1: 240 radials, 33 % of the circle, gates of 0.25 km up to 460 km");
 }
 
-// Panels say the angle of the sweep, as single pictures do, whatever the scene asked for.
+// Panels state the angle of the sweep that they show, as single pictures do, and not the angle that
+// the scene asked for.
 TEST_F(SweepField, PanelsSayTheAngleOfTheirSweep) {
     const grid::GridSpec spec = plane(real_.site.latitude_deg, real_.site.longitude_deg);
     grid::BrickView view;

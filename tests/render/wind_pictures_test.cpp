@@ -1,5 +1,5 @@
-// Tests hodographs and pictures of wind by time and height, by pixels whose place is known.
-#include <cmath>
+// Tests hodographs, and pictures of wind over time and height. The tests read pixels at known
+// places. include <cmath>
 
 #include <gtest/gtest.h>
 

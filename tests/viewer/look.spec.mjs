@@ -1,5 +1,5 @@
-// Checks pictures of the page against the slicer, what mouse, keys and fingers do, and readings against the server's
-// probe.
+// Compares pictures of the page with the slicer's pictures, and readings with the server's probe. Checks what mouse,
+// keys and fingers do.
 import { expect, expectLikeSlicer, report, test } from './fixtures.mjs';
 import { placeOf, shadesOf } from './pixels.mjs';
 import { mostDifference, viewOf } from './slicer.mjs';

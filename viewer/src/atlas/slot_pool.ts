@@ -33,8 +33,8 @@ export class SlotPool {
         this.pinned.add(key);
     }
 
-    // Gives a slot to each brick of a column whose `hasValues` is true. If slots run out, takes slots from the least
-    // recently used columns whose keys are neither pinned nor in `wanted`. Returns null if that is not enough.
+    // Gives a slot to each brick of a column for which `hasValues` is true. If slots run out, takes slots from the
+    // least recently used columns whose keys are neither pinned nor in `wanted`. Returns null if that is not enough.
     take(
         level: number,
         x: number,

@@ -20,7 +20,7 @@ export class Showing {
 
     constructor(private app: App) {}
 
-    // Shows the error of a failed load. If what was loaded is not wanted any more (`isWanted` is false), shows the
+    // Shows the error of a failed load. If the page does not want the data any more (`isWanted` is false), shows the
     // error only if the server did not answer.
     failed(error: unknown, isWanted: boolean): void {
         if (isWanted || error instanceof TypeError) this.app.fail(error);

@@ -10,7 +10,7 @@ import { Tables } from '../wire/api';
 import { measuredOf } from '../wire/moments';
 import { texts } from './texts';
 
-// Prefix of the server's tables whose classes people with any kind of color vision can tell apart
+// The names of the server's tables for people with any kind of color vision begin with this
 // (render/color/built_in_tables.h).
 const safePrefix = 'safe-';
 export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.safeTable(name) : name);

@@ -1,4 +1,4 @@
-// Finds the opacity for a table whose file does not state it, by the tables of the server. default_extinction() of
+// Finds the opacity for a table whose file does not state one, from the server's tables. default_extinction() of
 // render/color/built_in_tables.h gives the same opacity.
 
 import { colorOf } from './color_table';

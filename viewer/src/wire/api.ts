@@ -149,8 +149,8 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
-// Returns the silent stations, each with the seconds since data came from it, and the time of the server. Includes the
-// stations whose silence the server does not know, with undefined instead of seconds.
+// Returns the silent stations, each with the seconds since data came from it, and the time of the server. Also returns
+// the stations of which the server does not know whether they are silent, with undefined instead of seconds.
 export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
