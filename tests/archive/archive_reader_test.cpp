@@ -213,8 +213,8 @@ TEST(ArchiveReader, ReadsOnBehindZeros) {
     EXPECT_THAT(names_of(*reader), ElementsAre("a", "d"));
 }
 
-// 2026-11-29: if the start of an archive could not be read once, the file never counted as an
-// archive again.
+// 2026-11-29: if reading the start of an archive failed once, the file never counted as an archive
+// again.
 TEST(ArchiveReader, AStartThatCannotBeReadIsNotThatOfAnotherFile) {
     const Descriptor unreadable{::open("/proc/self/mem", O_RDONLY | O_CLOEXEC)};  // EIO at 0
     auto reader = ArchiveReader::open(unreadable.number());

@@ -1,4 +1,4 @@
-// Tests that a plan is the same every time, and that each task is read without the others.
+// Tests that a plan is the same every time, and that each task can be read alone.
 #include "batch/plan.h"
 
 #include <fstream>

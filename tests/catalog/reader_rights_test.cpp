@@ -134,7 +134,7 @@ TEST_F(ReaderRights, AReaderSeesWhatAKilledWriterLeft) {
     if (writer == 0) {
         auto catalog = CatalogWriter::open(directory_ / "catalog");
         if (catalog) (void)catalog->register_file(volume_facts(0));
-        ::_exit(0);  // nothing is closed: the WAL stays
+        ::_exit(0);  // does not close the database, so the WAL stays
     }
     ::waitpid(writer, nullptr, 0);
     ASSERT_TRUE(fs::exists(directory_ / "catalog/KTLX.sqlite-wal"));

@@ -66,10 +66,10 @@ TEST(ClimatologyNetcdf, SaysWhatWasSeenAndHowOftenItRained) {
     EXPECT_EQ(frequency.at(0), 1);         // 0 dBZ in both frames
     EXPECT_EQ(frequency.at(1), fill);      // the blind column
     EXPECT_EQ(frequency.at(2 * 10), 0.5);  // 50 dBZ in one of two frames
-    EXPECT_EQ(frequency.at(2 * 11), 0);    // 55 dBZ never
+    EXPECT_EQ(frequency.at(2 * 11), 0);    // 55 dBZ in no frame
     const auto tops = file.values("echo_top_frequency", 8);
-    EXPECT_EQ(tops.at(0), 0.5);  // at or above 1000 m
-    EXPECT_EQ(tops.at(2), 0.5);  // at or above 2000 m
+    EXPECT_EQ(tops.at(0), 0.5);  // echo tops at or above 1000 m in one of two frames
+    EXPECT_EQ(tops.at(2), 0.5);  // echo tops at or above 2000 m in one of two frames
     EXPECT_THAT(file.text("maximum", "ancillary_variables"), HasSubstr("not_seen"));
     EXPECT_EQ(write_climatology(real_file_system(), directory / "d.nc", {}, {}).error().code,
               ErrorCode::bad_argument);

@@ -211,7 +211,7 @@ TEST(GridWindow, AcrossTheAntimeridianAndAboutThePoles) {
     }
     expect_holds_all(alaska, {71, -156}, 460e3, true);
     expect_holds_all(alaska, {51.5, 176}, 460e3, true);
-    // The plane is torn at the antipode of its center.
+    // Columns that are neighbors at the antipode of the center are far apart on the plane.
     const Columns wide(domain_of(azimuthal_equidistant, {0, 0}, 200000, 200, 200));
     expect_holds_all(wide, {0.5, 179}, 460e3, false);
 }

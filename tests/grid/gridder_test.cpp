@@ -89,7 +89,7 @@ TEST(Gridder, BeyondTheLastGateIsNotSeen) {
 
 TEST(Gridder, AGapInAzimuthIsNotSeen) {
     SweepPlan low = plan(0.5, 1);
-    low.radials = 270;  // none between 270 and 360 degrees
+    low.radials = 270;  // no radials between 270 and 360 degrees
     SweepPlan high = low;
     high.elevation_deg = 1.5;
     high.cut = 2;

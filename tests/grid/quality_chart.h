@@ -47,8 +47,8 @@ struct PointChart {
 [[nodiscard]] PointChart point_chart(const Observed& observed, const grid::Method& method);
 
 // The chart of the plateau's near side, across which the mean Z rises to the plateau's Z. The rise
-// is the distance from 10 % to 90 % of it. The shift says how far beyond the true edge it reaches
-// 50 %.
+// is the distance over which the mean Z grows from 10 % to 90 % of the plateau's Z. The shift says
+// how far beyond the true edge the mean Z reaches 50 %.
 struct EdgeChart {
     double rise_km = 0;
     double shift_km = 0;

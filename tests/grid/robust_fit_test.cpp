@@ -58,13 +58,13 @@ TEST(RobustFit, OutliersHardlyCount) {
     EXPECT_LT(found->deviation, 20);
 }
 
-// The stated errors must equal the scatter over many draws, although the rows of a block are off
-// together. Errors computed from the number of rows alone would be a quarter of the scatter.
+// The stated errors must equal the scatter over many draws, although the rows of a block have an
+// error in common. Errors computed from the number of rows alone would be a quarter of the scatter.
 TEST(RobustFit, ErrorsAreThoseOfBlocksThatAreOffTogether) {
     std::array<double, fit_size> scatter{}, stated{};
     constexpr int draws = 200;
     for (unsigned seed = 0; seed < draws; ++seed) {
-        // Residuals about the truth, as after the last step.
+        // Compute residuals about the truth, as after the last step.
         auto rows = made(100 + seed, 40, 30, 1, 0.3);
         for (FitRow& row : rows) {
             for (std::size_t j = 0; j < fit_size; ++j)

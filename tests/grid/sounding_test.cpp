@@ -1,5 +1,5 @@
-// Tests soundings: refractivity against the formula of the Recommendation, the format, and the
-// message for each kind of wrong file.
+// Tests soundings: compares refractivity with the formula of ITU-R P.453, and checks the format and
+// the message for each kind of wrong file.
 #include "grid/beam/sounding.h"
 
 #include <cmath>
@@ -23,7 +23,8 @@ std::string refusal(const std::string& text) {
     return profile ? "" : profile.error().message;
 }
 
-// The current ITU-R P.453 has 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2, for the dry and the wet air.
+// The current ITU-R P.453 has 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2, where Pd is the pressure of
+// the dry air and e is that of the vapor.
 TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
     for (const double temperature_c : {-60.0, -20.0, 0.0, 15.0, 30.0, 40.0}) {
         for (const double below_c : {0.0, 3.0, 20.0}) {
@@ -39,7 +40,8 @@ TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
     EXPECT_NEAR(refractivity(1013.25, 15, -150), 272.9, 0.05);
 }
 
-// Goff and Gratch give 6.11 hPa at 0, 23.37 at 20, 1.2540 (over water) at -20, 73.78 at 40 degrees.
+// Goff and Gratch give 6.11 hPa at 0 degrees Celsius, 23.37 hPa at 20, 1.2540 hPa (over water) at
+// -20, and 73.78 hPa at 40.
 TEST(Sounding, SaturationPressureIsThatOfTheTables) {
     EXPECT_NEAR(saturation_pressure_hpa(0), 6.11, 0.01);
     EXPECT_NEAR(saturation_pressure_hpa(20), 23.37, 0.05);

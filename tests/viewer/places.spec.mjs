@@ -11,7 +11,7 @@ async function places(viewer) {
 
 const test = base.extend({
   viewport: { width: 700, height: 440 },
-  // The map with two stations or more.
+  // Opens the map of all stations. Skips the check if there is only one station.
   map: async ({ viewer, server }, use, info) => {
     info.skip(server.stations.length < 2, 'there is one station');
     await viewer.goto();

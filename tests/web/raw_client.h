@@ -30,7 +30,7 @@ class RawClient {
     static std::string get(int port, std::string_view target, std::string_view more_headers = "");
 
   private:
-    std::optional<std::string> read_some(std::chrono::milliseconds patience);  // none: closed
+    std::optional<std::string> read_some(std::chrono::milliseconds patience);  // none if closed
     Descriptor socket_;
     bool has_ended_ = false;
 };

@@ -28,7 +28,7 @@ function equalAreaSine(latitudeDeg: number): number {
     return (1 - e2) * (sine / (1 - e2 * sine * sine) - Math.log((1 - e * sine) / (1 + e * sine)) / (2 * e));
 }
 
-// Returns the area of a polygon whose sides are geodesics. It must not hold a pole.
+// Returns the area of a polygon whose sides are geodesics. It must not contain a pole.
 export function areaM2(corners: Place[]): number {
     if (corners.length < 3) return 0;
     const points: Place[] = corners.flatMap((from, i) => {

@@ -41,7 +41,7 @@ export class Graphics {
         return shader;
     }
 
-    // Begins to compile a program. The first use of the program waits for the end.
+    // Begins to compile a program. The first use of the program waits until it is compiled.
     begin({ name, defines, vertex, fragment }: ShaderProgram): WebGLProgram {
         const gl = this.gl;
         const program = gl.createProgram()!;
@@ -139,7 +139,7 @@ export class Graphics {
 // not need.
 export class TextureShelf {
     private held = new Map<string, { of: object; texture: WebGLTexture }>();
-    private used = new Set<string>(); // for the last picture
+    private used = new Set<string>(); // names of the textures of the last picture
 
     constructor(private gl: WebGL2RenderingContext) {}
 

@@ -39,7 +39,7 @@ export interface ShaderProgram {
 }
 
 type Flags = Record<string, boolean | undefined>;
-// eslint-disable-next-line @typescript-eslint/consistent-type-definitions -- an interface would not be Flags
+// eslint-disable-next-line @typescript-eslint/consistent-type-definitions -- an interface could not be passed as Flags
 export type GridVariant = {
     isPerspective: boolean;
     hasUnevenLevels: boolean;

@@ -19,7 +19,7 @@ function reflectivityFrom(points: ExtinctionPoint[], lowest: number): Extinction
     return [...made, ...points.filter((point) => point.value >= first)];
 }
 
-// Returns the usual opacities. `usual` names for each moment the table that has the usual opacity of the moment.
+// Returns the usual opacities. `usual` gives for each moment the name of the table that has its usual opacity.
 export function usualOpacity(tables: ColorTable[], usual: Record<string, string>): UsualOpacity {
     return {
         of(moment, lowest) {
