@@ -7,17 +7,17 @@ usage: bench/compare_dealiasing.py [--program build/release/bench/bench_dealias]
 Needs numpy and recast-radar 0.1.3 (pip); --pyart also needs arm_pyart. All run in this process or
 in bench_dealias, one after the other.
 
-1. Folded again (--cases): the truth is every gate on which recast's methods `pyart` and `volume`
-   agree at the real Nyquist velocity. The velocities are folded again at 20, 16, 12 and 8.5 m/s.
-   Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also prints which
-   share of the wrong and of the right gates is marked ambiguous.
-2. Edges that are left (--edges): pairs of adjacent gates that still differ by more than the Nyquist
 1. Folded again (--cases): the true velocities are those of the gates on which recast's methods
-`pyart` and `volume` agree at the real Nyquist velocity. They are folded again at 20, 16, 12 and
-8.5 m/s. Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also
-prints which share of the wrong and of the right gates is marked ambiguous.
+   `pyart` and `volume` agree at the real Nyquist velocity. They are folded again at 20, 16, 12 and
+   8.5 m/s. Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also
+   prints which share of the wrong and of the right gates is marked ambiguous.
 2. Edges that are left (--edges): counts the pairs of adjacent gates that, dealiased at the real
-Nyquist velocity, still differ by more than it. Prints the counts and the seconds.
+   Nyquist velocity, still differ by more than it. Prints the counts and the seconds.
+"""
+import argparse
+import json
+import os
+import pathlib
 import subprocess
 import sys
 import tempfile

@@ -1,6 +1,6 @@
 // Tests that a file's row is searched in few databases, but in all that may have it. A stray is a
-// row in the database of another station than the station in the file's name. include
-// "catalog/path_homes.h"
+// row in the database of another station than the station in the file's name.
+#include "catalog/path_homes.h"
 
 #include <gtest/gtest.h>
 

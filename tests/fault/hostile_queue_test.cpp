@@ -1,5 +1,8 @@
 // Tests files that the service might read again and again: files that cannot be gridded, and chunks
-// of many volumes that take turns. include <array> include <chrono> include <cstdio>
+// of many volumes that take turns.
+#include <array>
+#include <chrono>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 #include <sys/inotify.h>

@@ -1,4 +1,5 @@
-// Tests the samples of a scene, and the plans that are made from them. include <cmath>
+// Tests the samples of a scene, and the plans that are made from them.
+#include <cmath>
 
 #include <gtest/gtest.h>
 

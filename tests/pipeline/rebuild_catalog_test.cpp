@@ -1,5 +1,6 @@
 // Tests that a catalog is made again from raw files, and from the readable rows of a damaged
-// catalog. include "pipeline/care/rebuild_catalog.h"
+// catalog.
+#include "pipeline/care/rebuild_catalog.h"
 
 #include <fstream>
 

@@ -1,5 +1,6 @@
 // Tests hodographs, and pictures of wind over time and height. The tests read pixels at known
-// places. include <cmath>
+// places.
+#include <cmath>
 
 #include <gtest/gtest.h>
 
