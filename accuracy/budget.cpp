@@ -24,8 +24,8 @@ struct UnitName {
     std::string_view name;  // in lower case
     Slot slot;
     double multiply;
-    double divide;  // divides, so that 20 ms is exactly the double nearest to 0.02 s
-    ValueUnit value_unit = ValueUnit::db;  // for a value
+    double divide;  // divisor: 20 / 1000 is exactly the double nearest to 0.02 s
+    ValueUnit value_unit = ValueUnit::db;  // unit of the value that the number bounds
 };
 constexpr std::array unit_names = {UnitName{"m", Slot::position, 1, 1},
                                    UnitName{"km", Slot::position, 1000, 1},
@@ -72,7 +72,8 @@ Result<Part> split_part(std::string_view text) {
     }
     const std::string_view behind =
         trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    // signbit() also refuses -0 and isfinite() NaN, without a comparison that would trap.
+    // isfinite() refuses infinities and NaN, and signbit() also -0, without a comparison that would
+    // trap on NaN.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" in the budget must be a finite number and not negative",
@@ -98,7 +99,7 @@ Status take_part(std::string_view text, Budget& budget) {
             "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, dE, ms and s",
             printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
-    // Test before multiplying, because floating-point traps must not see an overflow.
+    // Test before multiplying, so that no overflow raises a floating-point trap.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {
         return fail(ErrorCode::bad_argument, "\"{}\" in the budget is too large", printable(text));
     }

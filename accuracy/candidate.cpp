@@ -17,7 +17,7 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     return candidate;
 }
 
-// Returns true if the chain has efforts. Otherwise only measured costs can order its choices.
+// Returns true if the chain has efforts. Without them, only measured costs can order its choices.
 bool has_efforts(const Chain& chain) {
     for (const Step& step : chain.steps) {
         for (const Effect& effect : step.effects) {

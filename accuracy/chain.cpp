@@ -30,7 +30,7 @@ Status validate_effect(const Effect& effect) {
     return {};
 }
 
-// Checks that every effect that is set on can have all effects below it in its step on.
+// Checks each effect that is set on: all effects below it in its step must be allowed to be on.
 Status validate_settings(const Step& step) {
     const RungRange range = allowed_rungs(step);
     if (range.least <= range.most) return {};
@@ -54,8 +54,8 @@ Status validate_joint_costs(const Chain& chain) {
     return {};
 }
 
-// Returns `cheapest` plus the figures of all effects that are on and of all joint costs; at least
-// 0.
+// Returns `cheapest` plus the figures of all effects that are on and of all joint costs. A negative
+// sum counts as 0.
 template <class Figure>
 double sum_over(const Chain& chain, const Choice& choice, double cheapest, const Figure& figure) {
     double sum = cheapest;

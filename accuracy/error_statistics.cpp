@@ -7,8 +7,8 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Largest relative rounding error of sums of weights and of products with q. Ranks allow for this
-// error, so that rounding does not shift them.
+// Largest relative rounding error of sums of weights and of their products with q. Comparisons of
+// ranks allow for this error, so that rounding does not shift a rank.
 constexpr double share_slack = 1e-12;
 
 struct Weighted {
@@ -41,7 +41,7 @@ std::optional<ErrorSummary> summarize_weighted(std::vector<Weighted> list) {
     double squares = 0;
     for (const Weighted& entry : list) {
         total += entry.weight;
-        // Divide by the largest error, so that no square overflows.
+        // Divide by the largest error before squaring, so that no square overflows.
         if (summary.max > 0 && !std::isinf(summary.max)) {
             const double part = entry.magnitude / summary.max;
             squares += entry.weight * part * part;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t line_length = 80;
 constexpr std::size_t indent = 5;
 
-// Wraps words to as many indented lines as they need.
+// Breaks a text into as many indented lines as it needs.
 std::string wrapped(std::string_view words) {
     std::string text;
     std::string line;
@@ -33,7 +33,8 @@ std::string wrapped(std::string_view words) {
     return text;
 }
 
-// Returns a share of the budget as text; "-" for a budget of a time alone, which has no shares.
+// Returns a share of the budget as text, or "-" if the budget bounds only the time and so has no
+// shares.
 std::string percent(const Plan& plan, double share) {
     if (!plan.budget.bounds_errors()) return "-";
     if (std::isinf(share)) return "over";
@@ -46,7 +47,7 @@ struct Line {
     std::string predicted;
     std::string share;
     std::string evidence;
-    std::string below;  // an indented explanation, below this line
+    std::string below;  // an indented explanation, printed below this line
 };
 
 std::vector<Line> lines_of(const Plan& plan) {

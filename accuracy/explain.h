@@ -1,8 +1,8 @@
 // accuracy/explain.h -- writes the text of `--explain`: the budget, and for each effect its size,
 // whether it is on or off, and why.
 //
-// Explanations are wrapped at 80 characters; other lines may be longer. The same plan has the same
-// text on every machine. Sizes are rounded up to three digits.
+// Explanations are wrapped at 80 characters; other lines may be longer. Sizes are rounded up to
+// three digits. The same plan gives the same text on every machine.
 //
 // Threads   A pure function.
 #pragma once

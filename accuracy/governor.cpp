@@ -9,15 +9,16 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Returns true if only a sample shows how large the effect is. A sample that shows no effect is no
-// proof: in a sparse scene, 1 of 8 cells was off by 1.4 dB, but none of the sampled cells was.
-// Positions are computed from the geometry, so an effect with position size 0 moves no cell.
+// Returns true if the size of the effect is known only from a sample. Even if the sample shows no
+// effect, other cells may have one: in a sparse scene, 1 of 8 cells was off by 1.4 dB, but none of
+// the sampled cells was. Positions are computed from the geometry, so an effect with position size
+// 0 moves no cell.
 bool rests_on_sample(const Effect& effect, Quantity quantity) {
     if (effect.evidence != Evidence::sample) return false;
     return quantity != Quantity::position || effect.predicted.position_m > 0;
 }
 
-// Returns true if the sum that the choice leaves off is known without a sample.
+// Returns true if the sum of the effects that the choice leaves off is known without a sample.
 bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
         const std::vector<Effect>& effects = chain.steps[i].effects;
@@ -29,7 +30,8 @@ bool is_proven(const Chain& chain, const Choice& choice, Quantity quantity) {
     return true;
 }
 
-// Returns the bounded quantities that are not proven, which measuring must check.
+// Returns the quantities that the budget bounds and whose sums are not proven, so that measuring
+// must check them.
 std::vector<Quantity> unproven(const Chain& chain, const Budget& budget, const Choice& choice) {
     std::vector<Quantity> quantities;
     for (const Quantity quantity : all_quantities) {
@@ -47,8 +49,8 @@ bool shown(const Measured& measured, const Budget& budget, const std::vector<Qua
     });
 }
 
-// Returns the measurement in which the proven sum of a quantity, if there is one, replaces a
-// missing bound.
+// Returns the measurement. If it lacks the bound of a quantity whose sum is proven, the proven sum
+// takes the bound's place.
 Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured measured) {
     const auto fill = [&](Quantity quantity, std::optional<double>& bound) {
         if (bound || !is_proven(chain, candidate.choice, quantity)) return;
@@ -60,8 +62,8 @@ Measured with_proofs(const Chain& chain, const Candidate& candidate, Measured me
     return measured;
 }
 
-// Returns at most `most` candidates that fit the budget by prediction, in order of rising effort.
-// If more candidates fit, the most accurate of all replaces the last.
+// Returns at most `most` candidates whose predicted sums fit the budget, in order of rising effort.
+// If more candidates fit, the most accurate of all takes the last place.
 std::vector<Candidate> to_try(const std::vector<Candidate>& candidates, const Budget& budget,
                               std::size_t most) {
     std::vector<Candidate> good;
@@ -125,8 +127,8 @@ class Trial {
         return std::nullopt;
     }
 
-    // Returns the plan of the best measured candidate, which does not meet the budget; none if
-    // nothing was measured.
+    // Returns the plan of the best measured candidate, although that candidate does not meet the
+    // budget. Returns none if nothing was measured.
     [[nodiscard]] std::optional<Plan> best() const {
         if (!best_) return std::nullopt;
         Plan plan = finish(*best_, Outcome::unmet, best_measured_);
@@ -174,7 +176,7 @@ class Trial {
         best_size_ = size;
     }
 
-    // Returns the effects that the user set off, as text for the shortfall.
+    // Returns a text for the shortfall that names the effects that the user set off.
     [[nodiscard]] std::string settings_in_the_way() const {
         std::string text;
         for (const Step& step : chain_.steps) {
@@ -217,7 +219,8 @@ Result<Plan> govern(const Chain& chain, const Budget& budget, const Measure& mea
         if (*attempted) return **std::move(attempted);
     }
     if (auto best = trial.best()) return *std::move(best);
-    // The plan fits by prediction, so at least one candidate was within the time.
+    // The planner found a choice that fits by prediction, so at least one candidate was within the
+    // time.
     return fail(ErrorCode::internal, "the governor tried nothing");
 }
 

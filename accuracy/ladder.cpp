@@ -7,7 +7,7 @@
 namespace stormcellar::accuracy {
 namespace {
 
-// Returns the criteria of the Pareto front; less is better.
+// Returns the criteria for the Pareto front (the rows that no other row beats). Less is better.
 std::array<double, 4> criteria(const LadderRow& row, TimeKind kind) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     return {kind == TimeKind::kept ? row.kept_time_s.value_or(row.time_s) : row.time_s,

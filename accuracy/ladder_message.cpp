@@ -77,8 +77,8 @@ std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
                        error_in_words(rung, unit));
 }
 
-// Returns log(fall of the error) / log(rise of the time), from `base` to `rung`. Returns 0 for a
-// rung without any error, so that such a rung is chosen only if there is no other.
+// Returns log(fall of the error) / log(rise of the time) from `base` to `rung`. Returns 0 for a
+// rung without error, so that such a rung is chosen only if there is no other.
 double bargain(const Rung& rung, const Rung& base) {
     if (rung.error <= 0) return 0;
     return std::log(base.error / rung.error) / std::log(std::max(1.01, rung.time_s / base.time_s));
@@ -97,7 +97,7 @@ LadderMessage message_of(std::span<const LadderRow> rows, std::string_view step,
     std::ranges::stable_sort(rungs, {}, &Rung::time_s);
     const auto marked = std::ranges::find(rungs, true, &Rung::is_default);
     const Rung base = marked == rungs.end() ? rungs.front() : *marked;
-    // Rungs that are slower and more accurate than the base, from fast to slow; each is more
+    // The rungs that are slower and more accurate than the base, in order of time. Each is more
     // accurate than the rung before it.
     std::vector<Rung> better;
     for (const Rung& rung : rungs) {

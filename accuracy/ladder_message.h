@@ -13,26 +13,29 @@ namespace stormcellar::accuracy {
 
 struct LadderMessage {
     std::string step;  // the step whose rungs are compared
-    // The rung worth its time, as in "eight-point costs 6 times the time of linear and halves the
-    // error".
+    // Says which rung is worth its time, as in "eight-point costs 6 times the time of linear and
+    // halves the error".
     std::string buy;
-    // The rung after that, as in "beyond it, exact costs 40 times the time of that ..."; or empty.
+    // Says which slower rung comes next, as in "beyond it, exact costs 40 times the time of that
+    // ..."; or empty.
     std::string beyond;
 
     // Returns `buy` and `beyond`, separated by a semicolon; empty if `buy` is empty.
     [[nodiscard]] std::string sentence() const;
 };
 
-// Compares the rungs of one step by error and time. The error is the 99th percentile of the value,
-// or of the color if a row has no value. The time is kept_time_s, or time_s if that is unknown.
+// Compares the rungs of one step by error and time. The error of a rung is the 99th percentile of
+// the errors of its values, or of its colors if the row has no values. The time is kept_time_s, or
+// time_s if kept_time_s is unknown.
 //
-// The base is the default rung, whose name ends with "(default)", or else the fastest rung. All
-// rungs that are compared with the base are slower, are on the Pareto front and have a smaller
-// error. `buy` names the fastest of these rungs whose error is at least a tenth smaller than the
-// base's, or the fastest of all if no rung gains a tenth. If no rung is better, `buy` says so.
+// The base is the default rung, whose name ends with "(default)", or else the fastest rung. It is
+// compared with the rungs that are slower than the base, are on the Pareto front, and have a
+// smaller error. `buy` names the fastest of them whose error is at least a tenth smaller than the
+// base's. If no rung gains a tenth, `buy` names the fastest of them; if there is none at all, `buy`
+// says so.
 //
-// `beyond` names one of the rungs that are still slower and better than the rung in `buy`: the rung
-// with the largest ratio of log(fall of the error) to log(rise of the time). A rung without any
+// `beyond` looks at the rungs that are slower and more accurate than the rung in `buy`. It names
+// the one with the largest ratio of log(fall of the error) to log(rise of the time). A rung without
 // error is named only if there is no other.
 //
 // The message is empty if fewer than two rungs have an error and a time. In its text, ratios from

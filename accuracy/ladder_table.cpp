@@ -1,4 +1,5 @@
-// Writes the ladder as a table for people, with words as headings, for a terminal of 100 columns.
+// Writes the ladder as a table for people to read, with words as headings, for a terminal of 100
+// columns.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -35,7 +36,7 @@ std::string shortened(const std::string& text, std::size_t most) {
 
 using Cell = std::optional<std::string>;
 
-// A column of figures: two lines of heading, and how to get a row's figure.
+// A column of figures: its two lines of heading, and the function that gets its figure from a row.
 struct Heading {
     const char* upper;
     const char* lower;  // {} is replaced by the unit of the values

@@ -12,8 +12,8 @@ bool in_time(const Candidate& candidate, const Budget& budget) {
     return !budget.time_s || candidate.cost_s <= *budget.time_s;
 }
 
-// Returns the most accurate candidate within the time, or the first of equally accurate ones, which
-// has the least effort.
+// Returns the most accurate candidate within the time. If several are equally accurate, returns the
+// first, which has the least effort.
 const Candidate* most_accurate_in_time(const std::vector<Candidate>& candidates,
                                        const Budget& budget) {
     const Candidate* best = nullptr;
@@ -26,7 +26,7 @@ const Candidate* most_accurate_in_time(const std::vector<Candidate>& candidates,
     return best;
 }
 
-// Returns the size in the quantities that the budget bounds, and 0 in others.
+// Returns the size with 0 in all quantities that the budget does not bound.
 ErrorSize bounded_part(const ErrorSize& size, const Budget& budget) {
     ErrorSize part;
     if (budget.position_m) part.position_m = size.position_m;

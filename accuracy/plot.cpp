@@ -60,7 +60,8 @@ std::string_view color_of(std::size_t series) {
     return colors[series % colors.size()];
 }
 
-// Draws a circle, square, diamond, or triangle up or down. 7 colors and 5 shapes repeat after 35.
+// Draws a circle, square, diamond, or triangle up or down. The 35 combinations of 7 colors and 5
+// shapes repeat after 35 series.
 std::string marker_shape(double x, double y, std::size_t series, bool filled) {
     const std::string style =
         fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"1.8\"",
@@ -122,7 +123,8 @@ std::string draw_axes(const Plot& plot, const PlotLayout& layout) {
     return svg;
 }
 
-// Returns a size of 9 to title_size at which the title fits, if it fits at 9.
+// Returns the size of the title's letters: the largest, up to title_size, at which the title fits,
+// but at least 9.
 double size_of_title(const Plot& plot) {
     const auto letters = static_cast<double>(std::max<std::size_t>(1, plot.title.size()));
     return std::clamp((plot.width - 24) / (letters * bold_width), 9.0, title_size);

@@ -1,9 +1,9 @@
 // accuracy/plot.h -- plots error against time as an SVG picture.
 //
-// Both axes are logarithmic. Each series (a step of the chain) has its own color and shape, which
-// readers with any color vision can distinguish (colors of Okabe and Ito 2008). Points on the
-// Pareto front are filled, and a line joins them. Text is in the viewer's sans-serif font. The
-// result is well-formed XML 1.0 in UTF-8, with the same bytes for the same plot.
+// Both axes are logarithmic. A series holds the points of one step of the chain. Each series has
+// its own color and shape, which readers with any color vision can distinguish (colors of Okabe and
+// Ito 2008). Points on the Pareto front are filled, and a line joins them. Text is in the viewer's
+// sans-serif font. The result is well-formed XML 1.0 in UTF-8. The same plot gives the same bytes.
 //
 // Threads   Pure functions.
 // Errors    bad_argument for no points or more than 400, a time that is not above zero, an error

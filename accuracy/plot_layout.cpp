@@ -38,7 +38,8 @@ Status validate(const Plot& plot) {
     return {};
 }
 
-// Returns the value four decades below the greatest error if any error is below it, else 0.
+// Returns the value four decades below the greatest error if there are errors below that value,
+// else 0.
 double least_on_the_axis(const Plot& plot) {
     double greatest = 0;
     for (const PlotPoint& point : plot.points)
@@ -145,7 +146,7 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
         cost += 2 * box.overlap(label.box);
     for (const PlotMarker& marker : layout.markers)
         cost += 3 * box.overlap(marker_box(marker));
-    // A label over a line counts less: its white edge keeps it readable.
+    // An overlap with a line counts less, because the label's white edge keeps it readable.
     for (const auto& front : layout.fronts) {
         for (std::size_t i = 1; i < front.size(); ++i)
             cost += 0.5 * length_within(box, front[i - 1], front[i]);
@@ -154,8 +155,8 @@ double cost_of(const PlotBox& box, const PlotLayout& layout, const PlotBox& room
     return cost + 4 * (area - box.overlap(room));
 }
 
-// Places a label beside its marker if there is room, else farther away. Among equally good places,
-// the first counts.
+// Places a label beside its marker if there is room, else farther away. Takes the first of equally
+// good places.
 PlotLabel place_label(const PlotLayout& layout, std::size_t marker, const std::string& text) {
     struct Direction {
         double dx, dy;

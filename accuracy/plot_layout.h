@@ -1,9 +1,9 @@
 // accuracy/plot_layout.h -- the positions of everything in an accuracy plot.
 //
 // Layout and drawing are separate, so that tests can check that nothing overlaps. A logarithmic
-// axis cannot show errors of 0, so a row below the axis shows them. The row also shows errors more
-// than four decades below the greatest error, because these are rounding errors and would compress
-// the rest of the axis.
+// axis cannot show an error of 0, so a row below the axis shows these errors. The row also shows
+// errors more than four decades below the greatest error, because they are only rounding errors and
+// would compress the rest of the axis.
 //
 // Units     Pixels, with y downward.
 // Threads   Pure functions.

@@ -1,11 +1,11 @@
-// accuracy/quantile_bound.h -- bounds all errors from a sample of them.
+// accuracy/quantile_bound.h -- bounds a quantile of all errors from a sample of errors.
 //
-// The functions return an upper confidence bound of a quantile, which is one of the sampled
-// magnitudes. Over repeated samples, the bound is below the true quantile of the magnitudes of all
-// errors in at most a share 1 - confidence of the samples, whatever the distribution (heavy tails,
-// ties, mixtures). The functions return none if the sample is too small to bound the quantile at
-// all; they never extrapolate. The true quantile is the smallest t that at most a share 1 -
-// quantile of the errors exceeds. A NaN counts as infinite.
+// The functions return an upper confidence bound of a quantile; the bound is one of the sampled
+// magnitudes. If sampling is repeated, the bound is below the true quantile of the magnitudes of
+// all errors in at most a share 1 - confidence of the samples. This holds for every distribution
+// (heavy tails, ties, mixtures). The true quantile is the smallest t that at most a share 1 -
+// quantile of the errors exceeds. If the sample is too small to bound the quantile, the functions
+// return none; they never extrapolate. A NaN counts as infinite.
 //
 // Accuracy  tests/accuracy/quantile_bound_test.cpp enforces the coverage on simulations with known
 //           truth.
@@ -21,7 +21,7 @@ namespace stormcellar::accuracy {
 
 struct BoundRequest {
     double quantile = 0.99;     // above 0 and below 1, else there is no bound
-    double confidence = 0.999;  // likewise
+    double confidence = 0.999;  // above 0 and below 1, else there is no bound
 };
 
 // Bounds errors that are drawn independently of each other. The bound is the order statistic of the
@@ -32,8 +32,8 @@ struct BoundRequest {
 
 // Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
 // cells of one cluster may be off together. Clusters may be empty, may differ in size, and may be
-// drawn without replacement. The size of a cluster may depend on its errors. The sample may favor
-// some clusters:
+// drawn without replacement. The size of a cluster may depend on its errors. Some clusters may be
+// drawn more often than others, if their weights make up for it:
 //   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
 //                 the stratum) / (clusters drawn from it).
 //   proportional  Draw with replacement, in proportion to a size that is known for all clusters,

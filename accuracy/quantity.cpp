@@ -12,7 +12,7 @@ constexpr int digits = 3;
 // Numbers outside these limits are written with an exponent.
 constexpr double smallest_plain = 1e-4;
 constexpr double largest_plain = 1e7;
-// Rounding of binary fractions must not turn 0.3 into 0.301.
+// Without this slack, rounding up the binary fraction nearest to 0.3 would give 0.301.
 constexpr double digit_slack = 1e-12;
 
 }  // namespace
@@ -43,7 +43,7 @@ std::string format_number(double number) {
     if (std::isnan(number)) return "unknown";
     if (number == 0) return "0";
     int exponent = static_cast<int>(std::floor(std::log10(std::fabs(number))));
-    // The scale would overflow, so this number is not rounded up.
+    // The scale for rounding up would overflow here, so round this number to the nearest.
     if (std::abs(exponent) > 290) return fmt::format("{:.3g}", number);
     const double scale = std::pow(10, digits - 1 - exponent);
     const double rounded = std::ceil(number * scale * (1 - digit_slack)) / scale;
