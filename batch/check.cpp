@@ -40,7 +40,7 @@ class Check {
         return std::move(report_);
     }
 
-    // Writes the summary of a directory if all of its records exist.
+    // Writes the summary of a directory if all records of the directory exist.
     void sum_up(std::size_t first, std::size_t end) {
         Totals totals;
         for (std::size_t number = first; number < end; ++number) {
@@ -99,7 +99,8 @@ class Check {
         const auto standing = grids_standing(*store_, plan_, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) != record.digest) return false;
-        // Frames that were made without a damaged grid are not done; the grid may be whole again.
+        // Frames that lack a damaged grid do not count as done, because the grid may be whole
+        // again.
         if (task.kind() == TaskKind::frames && !record.left_out.empty()) return false;
         for (const StandingGrid& grid : *standing) {
             const auto sound = is_sound(grid);
@@ -124,7 +125,7 @@ class Check {
         return std::nullopt;
     }
 
-    // Writes a summary and ignores a failure; the next check then reads the records again.
+    // Writes a summary. Ignores a failure, because the next check then reads the records instead.
     void write_summary(const fs::path& path, const Totals& totals) const {
         Json json = json_of(totals);
         json["plan"] = plan_.facts().hash;

@@ -1,11 +1,11 @@
 // batch/check.h -- finds which tasks of a plan are done, from their records.
 //
-// A directory holds the records of a thousand tasks. The task that writes the last record of
-// PLAN/tasks/00012 also writes the sum of these records, to summary.json in that directory. The
-// summary appears by rename, and every process writes the same sum for the same records. So
-// checking a plan of millions of tasks reads thousands of files.
+// The records of a thousand tasks share a directory. The task that writes the last record of
+// PLAN/tasks/00012 also writes the sum of these records to summary.json in that directory. The
+// summary appears by rename, and every process computes the same sum from the same records. With
+// summaries, checking a plan of millions of tasks reads only thousands of files.
 //
-// Threads   One thread at a time for a plan; other processes may check it at the same time.
+// Threads   One thread at a time may check a plan; other processes may check it at the same time.
 // Errors    Those of reading the plan and, with `deep`, of reading grids.
 #pragma once
 
@@ -24,8 +24,9 @@ namespace stormcellar::batch {
 struct CheckReport {
     Totals done;
     std::vector<std::size_t> missing;  // tasks that are not done, ascending
-    std::vector<std::size_t> changed;  // missing tasks whose record does not fit the cache (`deep`)
-    double cost_left_s = 0;            // estimated processor time of the missing tasks
+    // missing tasks whose record does not fit the cache; with `deep` only
+    std::vector<std::size_t> changed;
+    double cost_left_s = 0;  // estimated processor time of the missing tasks
     // Time until all tasks are done, estimated from the work since the first task began. None
     // before the first task is done.
     std::optional<double> seconds_left;
@@ -38,11 +39,12 @@ struct CheckOptions {
 
 [[nodiscard]] Result<CheckReport> check(const Plan& plan, const CheckOptions& options);
 
-// Writes the record of a task, and the summary of its directory if this was the last record there.
+// Writes the record of a task. If it is the last one that its directory lacked, writes the
+// directory's summary, too.
 [[nodiscard]] Status keep_record(const Plan& plan, const Record& record);
 
-// Removes the record of a task, and the summary that includes it, so that the task counts as not
-// done.
+// Removes the record of a task and the summary that includes the record, so that the task counts as
+// not done.
 [[nodiscard]] Status drop_record(const Plan& plan, const Task& task);
 
 // A file that a task left out, with the reason.
@@ -50,7 +52,7 @@ struct LeftOutFile {
     std::size_t task = 0;
     NamedReason file;
 };
-// Returns the files that tasks left out, from their records. Skips tasks without a record.
+// Returns the files that tasks left out, as their records say. Skips tasks without a record.
 [[nodiscard]] std::vector<LeftOutFile> left_out_of(const Plan& plan,
                                                    const std::vector<std::size_t>& tasks);
 

@@ -23,7 +23,7 @@ struct Step {
     Resources needed;        // resources of one task
 };
 
-// Returns "0-3,7,9-11".
+// Returns the numbers as ranges, such as "0-3,7,9-11".
 std::string ranges_of(const std::set<std::size_t>& numbers) {
     std::string text;
     for (auto at = numbers.begin(); at != numbers.end();) {
@@ -84,8 +84,8 @@ std::string targets_of(const char* kind, const std::vector<std::size_t>& numbers
     return text;
 }
 
-// Quotes a text for a variable of a Makefile. A dollar is doubled. A # needs a backslash, or it
-// would begin a comment, and backslashes before it are doubled.
+// Quotes a text for a variable of a Makefile: doubles each dollar, and puts a backslash before each
+// #, which would otherwise begin a comment. Doubles backslashes before a #.
 std::string in_makefile(const std::string& text) {
     std::string escaped;
     std::size_t backslashes = 0;
@@ -184,8 +184,8 @@ Result<std::string> makefile_of(const Plan& plan, const TaskLists& tasks,
         in_makefile(quoted(plan.directory().native())), options.threads,
         targets_of("grid", tasks.grids), targets_of("frame", tasks.frames),
         targets_of("statistics", tasks.statistics));
-    // The hours of a day need the same grids, so group tasks with equal needs and name the needs
-    // once.
+    // All hours of a day need the same grids, so group the tasks by the grids that they need, and
+    // write each group's needs once.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_needs;
     for (const std::size_t number : tasks.frames) {
         const auto task = plan.task(number);

@@ -1,7 +1,7 @@
 // batch/engines.h -- writes scripts for Slurm and make that run the tasks that are not done.
 //
-// An engine only starts tasks. Records decide which tasks are done, so a task that an engine loses
-// is submitted again.
+// An engine only starts tasks. Records decide which tasks are done, so a task that the engine loses
+// is submitted again by the next script.
 //
 // Threads   Pure functions.
 // Errors    Those of reading the plan.
@@ -19,7 +19,7 @@ namespace stormcellar::batch {
 
 struct EngineOptions {
     std::filesystem::path program = "stormcellar";  // a name or path on every machine
-    int jobs = 0;     // tasks at a time; 0: as many as the engine lets run
+    int jobs = 0;     // tasks that run at a time; 0: as many as the engine allows
     int threads = 1;  // for each task
     std::string partition = {};
     // Slurm refuses arrays whose numbers reach its MaxArraySize, which is 1001 by default. If a
@@ -31,8 +31,8 @@ struct EngineOptions {
 // script cannot hold, such as a line feed.
 [[nodiscard]] Status check_names(const Plan& plan, const EngineOptions& options);
 
-// The tasks that are not done, by kind. An engine runs the grids first, then the frames, then the
-// statistics.
+// The tasks that are not done, by kind. An engine runs grid tasks first, then frame tasks, then
+// statistics tasks.
 struct TaskLists {
     std::vector<std::size_t> grids, frames, statistics;
 };
@@ -43,8 +43,8 @@ struct SlurmJob {
     std::string name;  // "grids", "frames" or "statistics"
     std::string text;  // the script
 };
-// Returns the jobs in the order of submission; the caller makes each job wait until the previous
-// job has ended.
+// Returns the jobs in the order of submission. The caller must make each job wait until the job
+// before it has ended.
 [[nodiscard]] std::vector<SlurmJob> slurm_jobs(const Plan& plan, const TaskLists& tasks,
                                                const EngineOptions& options);
 

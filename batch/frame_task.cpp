@@ -17,7 +17,8 @@ namespace stormcellar::batch {
 namespace {
 
 void add(const pipeline::FillReport& report, Record& record) {
-    // Names already noted, because several frames may lack the same damaged partial.
+    // Remember the names that are noted already, because several frames may lack the same damaged
+    // partial.
     std::set<std::string> noted;
     for (const pipeline::LeftOut& note : report.notes) {
         if (noted.insert(note.reason).second)

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using pipeline::IngestOutcome;
 using pipeline::IngestResult;
 
-// Times at which grids were written (ns since 1970), by the names of their volumes.
+// Times at which existing grids were written (ns since 1970), by the names of their volumes.
 using StandingFiles = std::map<std::string, std::int64_t>;
 
 std::size_t hour_of(const fs::path& path) {
@@ -99,7 +99,8 @@ class GridRun {
         return options;
     }
 
-    // Fails if files are missing: a source that is not mounted appears as an empty directory.
+    // Fails if files of the plan are missing. For example, a source that is not mounted is an empty
+    // directory.
     [[nodiscard]] Status check_whole(const BroughtFiles& brought) const {
         if (brought.files.size() >= day_.files) return {};
         return fail(ErrorCode::io,
@@ -108,8 +109,8 @@ class GridRun {
                     recipe_.source, brought.files.size(), day_.files);
     }
 
-    // Returns the files that need not be read again, because they have a grid that is not older.
-    // Excludes the last such file, which may lack the grid of another moment.
+    // Returns the files that need not be read again, because each has a grid that is not older than
+    // the file. Excludes the last of these files, because it may lack the grid of another moment.
     Result<std::set<fs::path>> files_done(const std::vector<fs::path>& files) const {
         const auto standing = grids_standing(store_, plan_, task_);
         if (!standing) return pass_on(standing);
@@ -133,7 +134,7 @@ class GridRun {
 
     Status take(pipeline::Ingestor& ingestor, const fs::path& path) {
         auto outcome = ingestor.ingest(path, true);
-        // Grid the other files first, so that another try has little left to do.
+        // Grid the other files before failing, so that another try has little left to do.
         if (!outcome && outcome.error().code == ErrorCode::io) {
             if (!unread_) unread_ = std::move(outcome.error());
             return {};
@@ -141,7 +142,8 @@ class GridRun {
         if (!outcome && !is_shortage(outcome.error().code))
             outcome = ingestor.give_up(path, outcome.error());
         if (!outcome) return pass_on(outcome);
-        // Another user may be able to read the file, or the source may be mounted again.
+        // Count the file as unread, because another user may be able to read it, or the source may
+        // be mounted again.
         const auto* const rejected = std::get_if<pipeline::ended::Rejected>(&outcome->ending);
         if ((rejected && rejected->with == ErrorCode::permission) ||
             outcome->result() == IngestResult::vanished) {
@@ -202,7 +204,7 @@ Result<TaskOutcome> run_grid_task(const Plan& plan, const Task& task, const Task
         const auto standing = grids_standing(*store, plan, task);
         if (!standing) return pass_on(standing);
         if (digest_of(*standing) == record->digest) return TaskOutcome{true, std::move(*record)};
-        // Drop the record, so that no frame is made before the grids exist again.
+        // Drop the record, so that no frame is made before the task has made its grids again.
         if (Status dropped = drop_record(plan, task); !dropped) return pass_on(dropped);
     }
     auto record = GridRun(plan, task, options, *store).run();

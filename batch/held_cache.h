@@ -1,9 +1,9 @@
 // batch/held_cache.h -- checks that a task had the same cache from beginning to end.
 //
-// A cache is often a mount. If it is mounted or unmounted while a task runs, some of the task's
-// grids are in the directory beneath it. The object holds the directory open, so that an
-// automounter keeps it. The object does not notice if the cache is unmounted and mounted again
-// within one task.
+// A cache is often a mount. If the cache is mounted or unmounted while a task runs, some of the
+// task's grids end up in the directory under the mount. The object holds the directory open, so
+// that an automounter does not unmount it. The object cannot notice that a cache was unmounted and
+// mounted again within one task.
 //
 // Threads   One thread at a time.
 // Errors    io.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the process of this host that the name contains; none for other hosts.
+// Returns the process that the file's name contains, or none if the name contains another host.
 std::optional<pid_t> process_of(std::string_view name) {
     const std::string prefix = fmt::format("{}{}-", temporary_prefix, host_name());
     if (!name.starts_with(prefix)) return std::nullopt;

@@ -32,10 +32,10 @@ constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 constexpr std::size_t most_task_bytes = std::size_t{1} << 20;
 
 // Estimates for gridding: bytes of raw files per second and processor, and the cost of each further
-// moment as a share of the first one's. docs/scaling.md has measured rates.
+// moment as a share of the first moment's cost. docs/scaling.md has measured rates.
 constexpr double grid_bytes_a_second = 35e6;
 constexpr double share_of_more_moments = 0.6;
-// Seconds for a million cells of a frame.
+// Estimated seconds for a million cells of a frame: with motion, without motion, and for counting.
 constexpr double advected_s = 0.2, plain_s = 0.005, statistics_s = 0.01;
 
 double cost_of(const Recipe& recipe, const StationDay& day) {
@@ -61,8 +61,8 @@ double cost_of(const Recipe& recipe, const MonthHour&) {
                      1e6);
 }
 
-// Returns the task of an hour's frames. Their volumes begin on the hour's day or on an adjacent
-// day.
+// Returns the task of an hour's frames. The volumes that the frames need begin on the hour's day or
+// on a day beside it.
 FrameHour hour_of(const Recipe& recipe, UtcTime begin, const std::vector<StationDay>& all) {
     const UtcTime from = std::max(begin, recipe.from);
     const UtcTime to = std::min(begin + hours{1} - std::chrono::milliseconds{1}, recipe.to);
@@ -87,7 +87,7 @@ std::vector<FrameHour> hours_of(const Recipe& recipe, const std::vector<StationD
     return found;
 }
 
-// Returns the tasks of statistics. A month's statistics need all of its frames, whose tasks are
+// Returns the tasks of statistics. A task needs all frames of its month, whose tasks are
 // consecutive.
 std::vector<MonthHour> months_of(const Recipe& recipe, const std::vector<FrameHour>& frames,
                                  std::size_t first_frame_task) {
@@ -141,7 +141,7 @@ std::string line_of(std::size_t number, const MonthHour& part, double cost_s) {
         .dump();
 }
 
-// Collects the lines of a plan, and the facts for its first line.
+// Collects the lines of a plan, and the sums for its first line.
 class PlanText {
   public:
     explicit PlanText(const Recipe& recipe) : recipe_(recipe) { facts_.hash = hash_of(recipe); }

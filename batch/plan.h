@@ -1,10 +1,10 @@
-// batch/plan.h -- the tasks that make an archive, in a file with a line for each task.
+// batch/plan.h -- the file of a plan: a line for each task that helps to make an archive of grids.
 //
 // PLAN/plan.jsonl has one JSON document on each line. The first line holds the recipe. Each further
-// line is a task, padded with blanks to a common length, so that a program finds task N without
-// reading the others. docs/guides/batch.md lists the fields. Grid tasks come first, by day and then
-// station; then frame tasks, by hour; then statistics, by month and hour of the day. The same
-// source, range and recipe give the same bytes.
+// line is a task. Blanks make all of these lines equally long, so that a program finds task N
+// without reading the others. docs/guides/batch.md lists the fields. Grid tasks come first, by day
+// and then station; then frame tasks, by hour; then statistics tasks, by month and hour of the day.
+// The same source, range and recipe give the same bytes.
 //
 // Threads   Many threads may read a plan.
 // Errors    not_found, corrupt, io; bad_argument for a number without a task.
@@ -23,7 +23,7 @@
 
 namespace stormcellar::batch {
 
-// The frames of an hour. They need the grids of the tasks [first_need, end_need).
+// The frames of an hour. They need the grids that the tasks [first_need, end_need) make.
 struct FrameHour {
     UtcTime from, to;  // inclusive
     std::size_t first_need = 0, end_need = 0;
@@ -54,7 +54,7 @@ struct PlanFacts {
     std::uint64_t bytes = 0;    // of the raw files
     std::uint64_t largest = 0;  // of the largest station-day
     double cost_s = 0;          // sum over all tasks
-    double largest_cost_s = 0;  // largest of all tasks
+    double largest_cost_s = 0;  // estimate of the most expensive task
 
     [[nodiscard]] std::size_t tasks() const { return grid_tasks + frame_tasks + statistics_tasks; }
 };
@@ -85,7 +85,7 @@ class Plan {
 // Returns true if a plan can hold the text unchanged: UTF-8 without control characters.
 [[nodiscard]] bool is_plan_text(const std::string& text);
 
-// Writes the plan of these station-days. Errors: also bad_argument if the directory has another
+// Writes a plan for these station-days. Errors: also bad_argument if the directory has another
 // plan, or if there is nothing to do.
 [[nodiscard]] Status write_plan(const std::filesystem::path& directory, const Recipe& recipe,
                                 const std::vector<StationDay>& days);

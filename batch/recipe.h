@@ -1,4 +1,4 @@
-// batch/recipe.h -- how an archive is gridded: sources, times, stations and grids.
+// batch/recipe.h -- the settings for gridding an archive: sources, times, stations and grids.
 //
 // The first line of a plan holds the recipe, so that each task finds everything there.
 //
@@ -25,20 +25,21 @@ namespace stormcellar::batch {
 struct Recipe {
     std::string source;           // an absolute directory, or the URL of a bucket
     std::filesystem::path cache;  // directory of the grids
-    // Range of the times of the frames or, without a domain, of the starts of volumes; inclusive.
+    // The times of the frames, or of the starts of volumes if there is no domain; inclusive.
     UtcTime from, to;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::optional<grid::Tallied> statistics;  // counted in the domain's frames; none: no counts
-    std::optional<pipeline::Domain> domain;   // none: each station's own grids, with this spec
+    // the counts to make of the domain's frames; none: no counts
+    std::optional<grid::Tallied> statistics;
+    std::optional<pipeline::Domain> domain;  // none: grid each station alone, with this spec
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
 
-    // Returns the domain of the cache for the grids of a station.
+    // Returns the name of the domain in the cache that holds the grids of a station.
     [[nodiscard]] std::string domain_of(const std::string& station) const;
-    // Returns how long before `from`, and after `to`, a volume may begin that the frames need.
+    // Returns the time by which volumes that the frames need may begin before `from` or after `to`.
     [[nodiscard]] std::chrono::milliseconds margin() const;
-    // Returns the recipe as options for filling in one moment.
+    // Returns the recipe as options for gridding an archive in one moment.
     [[nodiscard]] pipeline::ArchiveOptions archive_options(int threads) const;
 };
 
@@ -48,8 +49,8 @@ struct Recipe {
 // Reads a recipe. Errors: corrupt for a document of another form.
 [[nodiscard]] Result<Recipe> recipe_of(const nlohmann::ordered_json& json);
 
-// Returns a hash of the recipe and the software version. A record with another hash belongs to
-// another plan.
+// Returns a hash of the recipe and the software version. A record with another hash is from another
+// plan.
 [[nodiscard]] std::string hash_of(const Recipe& recipe);
 
 }  // namespace stormcellar::batch

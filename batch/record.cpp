@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// In the order of TaskKind.
+// The names of the kinds, in the order of TaskKind.
 constexpr std::array<const char*, 3> kinds{"grid", "frames", "statistics"};
 constexpr std::uint64_t most_record_bytes = std::uint64_t{64} << 20;
 
@@ -77,7 +77,7 @@ Record read_fields(const Json& json) {
     record.grids = json.at("grids");
     record.digest = json.at("digest");
     record.notes = reasons_of(json.at("notes"));
-    // Records of frames from before 2026-11-29 lack the list.
+    // Records of frames that were written before 2026-11-29 lack this list.
     if (json.contains("left_out")) record.left_out = reasons_of(json.at("left_out"));
     record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
     record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();

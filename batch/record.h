@@ -1,11 +1,10 @@
 // batch/record.h -- the result of a task, in a file that appears when the task is done.
 //
 // PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records. Once
-// all records of a directory exist, the directory also has their sum (batch/check.h).
-// docs/guides/batch.md lists the fields.
+// it has all of them, it also has their sum (batch/check.h). docs/guides/batch.md lists the fields.
 //
-// A record appears by rename. If two runs of a task overlap, the later record replaces the earlier
-// one; both runs make the same grids.
+// A record appears by rename. If two runs of a task overlap, the record written later replaces the
+// other; both runs make the same grids.
 //
 // Units     Seconds, bytes; times are UTC.
 // Threads   Functions without state.
@@ -25,7 +24,7 @@
 namespace stormcellar::batch {
 
 struct NamedReason {
-    std::string name;  // of a file, without directories; for frames a fixed text
+    std::string name;  // of a file, without directories; the same text for all frames
     std::string reason;
 };
 
@@ -35,17 +34,19 @@ struct Record {
     std::size_t number = 0;
     std::string plan;  // hash of the plan's recipe
     TaskKind kind = TaskKind::grids;
-    std::string station;  // for grids
-    std::string day;      // for grids, as 20130520
-    // Counts of raw files, whether taken or left out, and of existing grids, frames or files of
-    // counts.
+    std::string station;  // of a grid task
+    std::string day;      // of a grid task, as 20130520
+    // Number of raw files, whether gridded or left out; and number of grids, frames or files of
+    // counts that exist.
     std::size_t files = 0;
     std::size_t grids = 0;
-    std::string digest;                 // of all bytes of the grids
-    std::vector<NamedReason> left_out;  // raw files not gridded; for frames: damaged grids
-    std::vector<NamedReason> notes;     // files taken, with a remark
+    std::string digest;  // of all bytes of the grids
+    // raw files that were not gridded; for frames: damaged grids
+    std::vector<NamedReason> left_out;
+    std::vector<NamedReason> notes;  // files that were gridded, with a remark
     HourCounts taken_by_hour{}, left_out_by_hour{};
-    // Resources of the last run of the task, which are lower if an earlier run had made some grids.
+    // Resources that the last run of the task used. They are lower if an earlier run had made some
+    // grids.
     UtcTime started, ended;
     double cpu_s = 0;
     std::uint64_t bytes_read = 0, bytes_written = 0, memory_bytes = 0;
@@ -56,7 +57,7 @@ inline constexpr std::size_t records_a_directory = 1000;
 [[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& plan,
                                                 std::size_t number);
 
-// Returns the contents of the record's file.
+// Returns the text of the record's file.
 [[nodiscard]] std::string text_of(const Record& record);
 [[nodiscard]] Status write_record(const std::filesystem::path& plan, const Record& record);
 // Returns none if the record is missing, damaged, or of another recipe or task.

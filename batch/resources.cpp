@@ -13,11 +13,12 @@ namespace {
 
 constexpr std::uint64_t mib = std::uint64_t{1} << 20;
 constexpr std::uint64_t program_bytes = 200 * mib;  // code, tables and geometries
-// Dense cells, from which bricks are made, have a float and a state.
+// A grid takes this much per cell while it is dense (before it is stored as bricks): a float and a
+// state.
 constexpr std::uint64_t bytes_a_cell = 10;
 constexpr std::uint64_t frame_worker_bytes = 400 * mib;
 constexpr std::uint64_t catalog_bytes = 64 * mib;
-// Allowance for slow disks, slow processors, and machines that others use, too.
+// Factor for slow disks, slow processors, and machines that others use, too.
 constexpr double margin = 4;
 constexpr double start_s = 300;
 
@@ -29,7 +30,7 @@ std::uint64_t cells_of(const Recipe& recipe) {
         return static_cast<std::uint64_t>(recipe.nx) * static_cast<std::uint64_t>(recipe.ny) *
                levels;
     }
-    // Use the largest window of a site.
+    // Assume the largest window that a site can have.
     const grid::GridSpec& spec = recipe.domain->spec;
     const auto along = [](int cells, double cell_m) {
         return std::min<double>(cells, 2 * grid::site_reach_m / cell_m + 1);
@@ -80,7 +81,7 @@ std::uint64_t bytes_of_counts(const Plan& plan) {
 Resources resources_of_statistics(const Plan& plan) {
     Resources needed;
     if (!plan.recipe().statistics) return needed;
-    // Memory holds the counts, their bytes, and the compressed bytes.
+    // Memory holds the counts, the same counts as bytes to write, and the compressed bytes.
     const std::uint64_t counts =
         grid::GridTally::bytes_of(plan.recipe().domain->spec, *plan.recipe().statistics);
     needed.memory_bytes = program_bytes + 3 * counts;

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_depth = 16;  // as deep as the daemon
+constexpr int max_depth = 16;  // of directories; the daemon's limit is the same
 constexpr int transfers_of_a_task = 4;
 
 struct TimeSpan {
@@ -50,7 +50,7 @@ std::string own_name_of(const std::string& member) {
 }
 
 // Calls `take` for each member that is a file. Then calls `leave_out` for each unreadable member
-// that may be a volume or an archive, and for a cut end of the archive.
+// that may be a volume or an archive, and once more if the archive ends too early.
 template <class Take, class LeaveOut>
 Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
@@ -66,7 +66,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
         const std::string name = own_name_of(one.name);
         if (one.name.empty() || is_archive_name(name) || volume_named(name)) leave_out(name, one);
     }
-    // Report the cut, because further members may have followed it.
+    // Report the early end, because further members may have followed.
     const std::string& why = reader->why_ended();
     if (reader->is_unreadable()) return fail(ErrorCode::io, "{}: {}", path.native(), why);
     if (!why.empty() && (left_out.empty() || left_out.back().reason != why))
@@ -74,7 +74,7 @@ Status for_each_member(const fs::path& path, Take take, LeaveOut leave_out) {
     return {};
 }
 
-// Collects the files of each station-day while a source is walked.
+// Collects the files of each station-day during a walk through a source.
 class Walk {
   public:
     Walk(fs::path root, TimeSpan span) : root_(std::move(root)), span_(span) {}
@@ -88,7 +88,7 @@ class Walk {
             if (pipeline::is_temporary_name(name)) continue;
             std::error_code unknown;
             const fs::file_type type = entry->symlink_status(unknown).type();
-            // A file that was removed during the walk is not missing.
+            // A file that was removed during the walk is no failure.
             if (unknown && type != fs::file_type::not_found)
                 return tl::unexpected(failure(entry->path(), unknown));
             if (type == fs::file_type::directory && depth < max_depth) {
@@ -173,7 +173,7 @@ class Walk {
     SourceListing listing_;
 };
 
-// Returns the range of the starts of a task's volumes.
+// Returns the range in which a task's volumes begin.
 TimeSpan span_of(const Recipe& recipe, std::chrono::sys_days day) {
     return {std::max<UtcTime>(day, recipe.from - recipe.margin()),
             std::min<UtcTime>(UtcTime{day} + std::chrono::days{1} - std::chrono::milliseconds{1},
@@ -211,7 +211,8 @@ Status add_members(const fs::path& tar, const StationDay& what, const TimeSpan& 
     const auto take = [&](const archive::Member& member) -> Status {
         const std::string name = own_name_of(member.name);
         if (!is_of(name, what, span)) return {};
-        // Another archive may hold a file of this name, complete or not.
+        // Make the copy anew, because another archive may have held a file of this name, complete
+        // or not.
         fs::path path = scratch / name;
         for (int number = 2; files.contains(path); ++number)
             path = scratch / std::to_string(number) / name;
@@ -260,8 +261,8 @@ Result<BroughtFiles> fetch_files(const Recipe& recipe, const StationDay& what, c
     const auto report = fetch::fetch(request);
     if (!report) return pass_on(report);
     if (report->stopped) return fail(ErrorCode::busy, "stopped while files were fetched");
-    // Leave out files that the bucket lists but refuses, because another try would not bring them.
-    // After any other failure, fail: another try may succeed.
+    // If the bucket lists a file but refuses it, leave the file out, because another try would not
+    // help. After any other failure, fail, because another try may succeed.
     std::vector<pipeline::LeftOut> refused;
     for (const fetch::FetchFailure& failure : report->failures) {
         if (!failure.is_refused) {
@@ -282,7 +283,7 @@ std::optional<NamedVolume> volume_named(std::string_view file_name) {
     const std::string station = station_in_name(file_name);
     if (station.empty() || file_name.ends_with("_MDM")) return std::nullopt;
     constexpr std::size_t icao = 4, time = 15;
-    // NCEI writes four digits before the station.
+    // NCEI writes four digits before the name of the station.
     const std::size_t before = icao_of(file_name.substr(0, icao)) == station ? 0 : icao;
     if (file_name.size() < before + icao + time) return std::nullopt;
     const auto start = parse_compact(file_name.substr(before + icao, time));

@@ -1,13 +1,13 @@
-// batch/source.h -- finds the raw files of an archive: in a directory, in its tars, or in a public
+// batch/source.h -- finds the raw files of an archive in a directory, in its tars, or in a public
 // bucket.
 //
-// A volume is identified by its file's name, which begins with a station and the start of the
-// volume (KTLX20130520_200356_V06.gz, 6500KTLX19910720_160529.Z). A plan is made without decoding.
+// The name of a file identifies its volume. It begins with a station and the start of the volume
+// (KTLX20130520_200356_V06.gz, 6500KTLX19910720_160529.Z). So a plan can be made without decoding.
 //
 // Units     Sizes are in bytes; days are UTC.
 // Threads   Functions without state.
 // Errors    Those of reading directories and tars, and of fetch::fetch(). Damaged files are left
-//           out. A file that cannot be read gives an error, because another try may succeed.
+//           out. A file that cannot be read is an error, because another try may succeed.
 #pragma once
 
 #include <atomic>
@@ -34,26 +34,26 @@ struct NamedVolume {
         return std::chrono::floor<std::chrono::days>(start);
     }
 };
-// Returns none for a name without a known station and a time, and for files of metadata (_MDM).
+// Returns none if the name has no known station or no time, or is of a file of metadata (_MDM).
 [[nodiscard]] std::optional<NamedVolume> volume_named(std::string_view file_name);
 
 // The files that one station sent on one day. One task grids them.
 struct StationDay {
     std::chrono::sys_days day;
     std::string station;
-    // The directories and tars that hold its files, relative to the source, sorted. Empty for a
+    // The directories and tars that hold the files, relative to the source, sorted. Empty for a
     // bucket.
     std::vector<std::string> in;
     std::size_t files = 0;
     std::uint64_t bytes = 0;
 };
 
-// Assumed size of a station-day of a bucket, because a plan does not list buckets.
+// Size that a plan assumes for a station-day of a bucket, because a plan does not list buckets.
 inline constexpr std::uint64_t bytes_of_unlisted_day = 1'500'000'000;
 
 struct SourceListing {
     std::vector<StationDay> days;  // by day, then station
-    std::size_t nameless = 0;      // files without a station and time in their names
+    std::size_t nameless = 0;      // files whose name has no station and time
     std::string first_nameless;
     // Tars and members that may hold volumes but cannot be read, with the reason.
     std::vector<std::string> cut;
@@ -63,20 +63,21 @@ struct SourceListing {
 // Lists the volumes that begin in the range. Tars are read from end to end.
 [[nodiscard]] Result<SourceListing> list_source(const std::string& source, UtcTime from,
                                                 UtcTime to);
-// Returns a listing of a bucket without asking it: each station may have files on each day of the
-// range.
+// Returns a listing of a bucket without asking the bucket. The listing assumes that each station
+// has files on each day of the range.
 [[nodiscard]] SourceListing every_day_of(const std::vector<std::string>& stations, UtcTime from,
                                          UtcTime to);
 
-// The files of a station-day, made readable, by start and name.
+// The readable files of a station-day, sorted by start and name.
 struct BroughtFiles {
     std::vector<std::filesystem::path> files;
-    std::filesystem::path beneath;  // holds all of them; empty if some come from tars
+    // the directory that holds all files; empty if some come from tars
+    std::filesystem::path beneath;
     std::vector<pipeline::LeftOut> left_out;
 };
-// Makes the files of a station-day readable. Members of tars and files of a bucket are copied to
-// `scratch` with their times. Files that the bucket lists but refuses are left out. Errors: also io
-// if a file could not be fetched for another reason, and busy after a stop.
+// Makes the files of a station-day readable. Copies members of tars and files of a bucket to
+// `scratch`, with their modification times. Leaves out files that the bucket lists but refuses.
+// Errors: also io if a file could not be fetched for another reason, and busy after a stop.
 [[nodiscard]] Result<BroughtFiles> bring(const Recipe& recipe, const StationDay& what,
                                          const std::filesystem::path& scratch,
                                          const std::atomic<bool>& stop);

@@ -15,9 +15,9 @@
 namespace stormcellar::batch {
 namespace {
 
-// A volume begins at most this long before the time in its file's name. A file of several joined
-// volumes may hold later ones. If one begins more than `most_after` after the day, its grid is not
-// found here, and each run makes it again.
+// A volume begins at most this long before the time in its file's name. A file may hold several
+// joined volumes; if one of these begins more than `most_after` after the day, its grid is not
+// found here, and each run makes that grid again.
 constexpr std::chrono::minutes most_before{15};
 constexpr std::chrono::hours most_after{2};
 
@@ -46,14 +46,14 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
            pipeline::is_of_grid(recipe.archive_options(1), description);
 }
 
-// Returns true if the file could not be read, so that its contents may still be sound.
+// Returns true if the file could not be read. Its contents may then still be sound.
 bool may_be_sound(const Error& error) {
     return error.code == ErrorCode::io || is_shortage(error.code);
 }
 
 struct Found {
     std::vector<StandingGrid> standing;
-    std::size_t damaged = 0;  // grids of any task: a damaged header does not name its task
+    std::size_t damaged = 0;  // grids of all tasks, because a damaged header does not tell the task
 };
 
 Result<Found> find_grids(const cache::StoreReader& store, const Recipe& recipe, const Task& task) {
@@ -112,7 +112,8 @@ Status check_stands(const cache::StoreReader& store, const Plan& plan, const Tas
 }
 
 Result<bool> is_sound(const StandingGrid& grid) {
-    if (grid.path.empty()) return true;  // the checksum of counts covers all their bytes
+    // A file of counts has no path here; its checksum covers all of its bytes.
+    if (grid.path.empty()) return true;
     const auto file = cache::GridFile::open(grid.path);
     const Status sound = file ? file->verify() : Status{pass_on(file)};
     if (!sound && may_be_sound(sound.error())) return pass_on(sound);
@@ -126,7 +127,7 @@ Status remove_damaged(const cache::StoreReader& store, const Plan& plan, const T
         const auto sound = is_sound(grid);
         if (!sound) return pass_on(sound);
         if (*sound) continue;
-        // Drop the record, so that no frame is made before the grid exists again.
+        // Drop the record, so that no frame is made before the task has made the grid again.
         if (Status dropped = drop_record(plan, task); !dropped) return dropped;
         std::error_code error;
         std::filesystem::remove(grid.path, error);

@@ -27,22 +27,22 @@ struct StandingGrid {
     std::filesystem::path path;
 };
 
-// Returns the grids of the task in order of moment, then time. For a task of statistics, returns
-// its file of counts, if that can be read.
+// Returns the grids of the task that exist, by moment and then time. For a task of statistics,
+// returns its file of counts if that file can be read.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
 
-// Returns ok if the cache has the grids of the task's record. Damaged grids count as present, and
-// additional grids are accepted, because another plan may have made them. Errors: also io if there
-// are fewer grids than the record says, or as many grids with another digest, for example because
-// the cache is not mounted.
+// Returns ok if the cache has the grids that the task's record counts. Damaged grids count as
+// present. Additional grids are accepted, because another plan may have made them. Errors: also io
+// if the cache has fewer grids than the record says, or as many grids with another digest; the
+// cache may not be mounted.
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 
-// Returns true if the grid's bytes fit its checksum. Returns true for a file of counts without
-// reading the file.
+// Returns true if the grid's bytes fit its checksum, and for every file of counts, without reading
+// it.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
-// If grids of the task are damaged, removes the record of the task and then these grids.
+// If the task has damaged grids, removes the record of the task and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,
                                     const Task& task);
 

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t most_tally_bytes = std::uint64_t{8} << 30;
-constexpr int fastest = 1;  // most counts are small, so more effort gains little
+// zlib level; most counts are small numbers, so more effort saves little
+constexpr int fastest = 1;
 
 std::string name_of(const MonthHour& part) {
     return fmt::format("{:04}{:02}-{:02}", part.year, part.month, part.hour);
@@ -48,8 +49,8 @@ std::vector<UtcTime> instants_of(const Recipe& recipe, const MonthHour& part) {
     return all;
 }
 
-// Adds the frames that exist to `tally` and returns their size on disk. An instant without volumes
-// around it has no frame.
+// Adds the existing frames to `tally` and returns their size on disk. An instant has no frame if no
+// volumes were made around it.
 Result<std::uint64_t> count_frames(const cache::StoreReader& store, const Recipe& recipe,
                                    const std::vector<UtcTime>& instants, const TaskOptions& options,
                                    grid::GridTally& tally) {

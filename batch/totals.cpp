@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Calls the function with the name and the member of each total that is a plain sum.
+// Calls the function with the name and the member of each total that is a plain sum of records.
 template <class Visit>
 void for_each_sum(const Visit& visit) {
     visit("grid_tasks", &Totals::grid_tasks);

@@ -10,7 +10,8 @@ namespace stormcellar::batch {
 class Usage {
   public:
     Usage();  // starts the measurement
-    // Writes times, processor seconds, the process's peak memory, and the host to the record.
+    // Writes the times, the processor seconds, the peak memory of the process, and the host to the
+    // record.
     void end(Record& record) const;
 
   private:
