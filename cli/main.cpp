@@ -22,7 +22,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Makes every option and argument refuse an empty value.
+// Makes every option and argument refuse an empty text.
 void refuse_empty(CLI::App& command) {
     const auto complaint = [](const std::string& value) {
         return value.empty() ? std::string{"must not be empty"} : std::string{};
@@ -34,20 +34,21 @@ void refuse_empty(CLI::App& command) {
         refuse_empty(*inner);
 }
 
-// Returns the first subcommand typed, if it can run or explain itself without the others. To set up
-// all commands takes ten times as long as to set up one of them.
+// Returns the subcommand that was typed first, if it can run or explain itself alone. To set up all
+// commands takes ten times as long as to set up one.
 const Subcommand* only_command(int argc, char** argv) {
     const Subcommand* const typed = argc < 2 ? nullptr : find_subcommand(argv[1]);
     return typed != find_subcommand("help") ? typed : nullptr;
 }
 
-// Returns an unknown first word, because CLI11 would only report that a subcommand is missing.
+// Returns the first word if it is no command, because CLI11 would only report that a subcommand is
+// missing.
 std::optional<std::string> unknown_command(int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-' || find_subcommand(argv[1]) != nullptr) return std::nullopt;
     return argv[1];
 }
 
-// Returns "catalog list" if that command was typed; empty if none was.
+// Returns the command that was typed, such as "catalog list"; empty if none was typed.
 std::string command_typed(const CLI::App& app) {
     std::string words;
     for (const CLI::App* at = &app; at != nullptr;) {

@@ -1,5 +1,5 @@
-// stormcellar accuracy [FILE...]: measures what accuracy costs in time, on real volumes or a
-// simulated scene.
+// stormcellar accuracy [FILE...]: measures the error and the time of each way to grid or draw, on
+// real volumes or on a simulated scene.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -97,8 +97,8 @@ nlohmann::ordered_json to_json(const std::vector<accuracy::LadderRow>& rows,
     return list;
 }
 
-// Returns false for a step without any error. Its points would be in one place, and a plot of them
-// would show nothing.
+// Returns false for a step whose rows have no error. All of its points would be in one place, so a
+// plot would show nothing.
 bool has_error(const std::vector<accuracy::LadderRow>& rows, const std::string& step) {
     return std::ranges::any_of(rows, [&](const accuracy::LadderRow& row) {
         const double error = row.value ? row.value->p99 : row.image_p99_de.value_or(0);
@@ -153,7 +153,7 @@ constexpr std::string_view words_of_pictures =
     "it:\n"
     "no other rung of the step is as fast and as accurate.\n";
 
-// Breaks a sentence at blanks to fit the width of the table.
+// Breaks a sentence at blanks into lines that fit the width of the table.
 std::string in_lines(std::string text) {
     constexpr std::size_t width = 96;
     for (std::size_t begin = 0; text.size() - begin > width;) {
@@ -205,7 +205,7 @@ void note_without_values(const std::vector<accuracy::LadderRow>& rows) {
     }
 }
 
-// Returns the rows of the ladder and, for a simulated scene, the rows of the truth.
+// Returns the rows of the ladder and, for a simulated scene, the errors against the truth.
 Result<Measured> measure(const Subject& subject, const GridRequest& request,
                          const grid::GridSpec& spec, const EffectRequest& effects,
                          const AccuracyOptions& options) {
@@ -335,8 +335,8 @@ int report_ladder(const AccuracyOptions& options, const GridRequest& request,
     return exit_done;
 }
 
-// Measures the steps of a mosaic if there are several sites or an instant. Otherwise holds out
-// volumes of one site and measures how well they are interpolated.
+// If there are several sites or an instant, measures the steps of a mosaic. Otherwise leaves out
+// volumes of one site in turn, and measures how well each is interpolated from its neighbors.
 int run_files(const AccuracyOptions& options, const GridRequest& request) {
     auto sources = load_mosaic(options.grid.files, request);
     if (!sources) return report_error(sources.error());

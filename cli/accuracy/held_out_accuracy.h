@@ -1,5 +1,5 @@
-// cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: measures the error of each
-// way to make a grid for an instant, on volumes or repeated cuts that were held out
+// cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: leaves out a volume or a
+// repeated cut, makes a grid for its instant in each way, and measures the error of each
 // (grid/judge/held_out_sequence.h).
 #pragma once
 
@@ -29,7 +29,7 @@ namespace stormcellar::cli {
 // Returns three volumes of a simulated scene.
 [[nodiscard]] Result<std::vector<grid::TimedVolume>> observe_sequence(const synth::Scene& scene);
 
-// Returns one row for each volume that has neighbors.
+// Returns one row for each volume that has a volume before and after it.
 [[nodiscard]] Result<std::vector<grid::HeldOutRow>> score_sequence(
     const std::vector<grid::TimedVolume>& sequence, const GridRequest& request,
     const std::function<void(std::size_t done, std::size_t total)>& progress);

@@ -1,11 +1,13 @@
-// cli/accuracy/ladder_markdown.h -- prints a ladder, the time and the error of each choice (rung)
-// for each step, as `stormcellar accuracy --markdown` does and docs/accuracy.md shows.
+// cli/accuracy/ladder_markdown.h -- prints a ladder: the time and the error of each choice (rung)
+// for each step. `stormcellar accuracy --markdown` prints it, and docs/accuracy.md shows it.
 //
+// The columns are
 //   step | rung | time_s | position max / rms (m) | value rms / p95 / p99 / max (UNIT) |
 //   status differs (%) | Pareto
-// time_s is the time of a grid whose geometry is kept, or of the first grid if only that was timed.
-// Figures have three significant digits, rounded up; percentages have two decimals; "-" stands for
-// a missing value. Ladders of pictures (cli/picture/picture_ladder.h): step | rung | time_s | color
+// time_s is the time of a grid whose geometry is kept, or of the first grid if only the first was
+// timed. Figures have three significant digits, rounded up; percentages have two decimals; "-"
+// stands for a missing value. A ladder of pictures (cli/picture/picture_ladder.h) has the columns
+//   step | rung | time_s | color p99 (dE) | Pareto
 // p99 (dE) | Pareto.
 //
 // Threads   Pure: may be called from any thread.
@@ -18,7 +20,7 @@
 
 namespace stormcellar::cli {
 
-// Returns the table. Each line ends with a line feed. Without rows it has only the head.
+// Returns the table. Each line ends with a line feed. Without rows, the table is only the heading.
 [[nodiscard]] std::string ladder_markdown(std::span<const accuracy::LadderRow> rows,
                                           accuracy::ValueUnit unit);
 

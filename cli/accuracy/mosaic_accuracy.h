@@ -1,6 +1,6 @@
-// cli/accuracy/mosaic_accuracy.h -- `stormcellar accuracy A B ...` of several sites, or for an
-// instant between volumes of one site: measures time and error of each choice for a mosaic's own
-// steps (pipeline/plan/mosaic_ladder.h).
+// cli/accuracy/mosaic_accuracy.h -- `stormcellar accuracy A B ...` for several sites, or for an
+// instant between volumes of one site: measures the time and the error of each choice for the steps
+// that only a mosaic has (pipeline/plan/mosaic_ladder.h).
 #pragma once
 
 #include <cstddef>

@@ -22,8 +22,8 @@ nlohmann::ordered_json json_of(const grid::Estimate& estimate) {
     return {{"value", estimate.value}, {"standard_error", estimate.standard_error}};
 }
 
-// Returns lines that say why quantities are undetermined. If all four have the same reason, for
-// example too little echo, returns a single line.
+// Returns lines that say why quantities are undetermined. If all four quantities have the same
+// reason, for example too little echo, returns a single line.
 std::vector<std::string> not_told_of(const grid::SiteComparison& pair) {
     const std::string& why = pair.bias_db.untold;
     const bool all = !why.empty() && pair.azimuth_deg.untold == why &&

@@ -1,5 +1,5 @@
-// cli/accuracy/site_pairs_accuracy.h -- `stormcellar accuracy A B... --compare-sites`: compares
-// overlapping sites (pipeline/mosaic/pair_comparison.h).
+// cli/accuracy/site_pairs_accuracy.h -- `stormcellar accuracy A B... --compare-sites`: compares the
+// echo of sites where they overlap (pipeline/mosaic/pair_comparison.h).
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@
 namespace stormcellar::cli {
 
 struct SitePairs {
-    UtcTime instant;  // the middle of the period of the newest volumes
+    UtcTime instant;  // the middle of the time that the newest volumes cover
     std::vector<std::string> stations;
-    std::vector<grid::SiteComparison> pairs;  // pairs that may overlap, by their names
+    std::vector<grid::SiteComparison> pairs;  // the pairs of sites that may overlap, sorted by name
 };
 
-// Compares files of two or more sites. Clocks can be compared only if a site has two volumes, which
-// show how the weather moves. Errors: bad_argument for another moment than REF or files of one
-// site; those of load_mosaic() and grid_sources(). With `shows_progress`, shows a progress bar for
-// the pairs.
+// Compares files of two or more sites. Clocks are compared only for pairs in which a site has two
+// volumes, because these show how the weather moves. With `shows_progress`, shows a progress bar
+// for the pairs. Errors: bad_argument for another moment than REF or files of one site; those of
+// load_mosaic() and grid_sources().
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects,

@@ -33,7 +33,8 @@ double highest_nyquist_mps(const level2::Volume& volume,
     return highest_mps;
 }
 
-// Takes the scene for the truth. Speckle and noise, which show no wind, are unknown.
+// Returns the scene's velocities as the truth. Speckle and noise show no wind, so their truth is
+// unknown.
 KnownVolume known_by_scene(const level2::Volume& volume, const synth::Scene& scene) {
     KnownVolume known{volume, retrieve::dealias(volume, Dealiasing::off).sweeps};
     for (retrieve::SweepFolds& folds : known.folds) {
@@ -51,7 +52,7 @@ KnownVolume known_by_scene(const level2::Volume& volume, const synth::Scene& sce
     return known;
 }
 
-// Returns a row for each rung.
+// Returns a row for each rung of dealias().
 std::vector<FoldRow> measure_at(const KnownVolume& known, double nyquist_mps, int rounds) {
     std::array<Dealiased, rungs.size()> found;
     std::vector<std::function<void()>> works;
@@ -81,7 +82,7 @@ void mark_front(std::vector<FoldRow>& rows) {
             std::ranges::none_of(rows, [&](const FoldRow& other) { return is_better(other, row); });
 }
 
-// `gap` is a blank or the end of a line.
+// Returns a text about the truth. `gap` is a blank or the end of a line.
 std::string truth_of(const FoldLadder& ladder, std::string_view gap) {
     if (ladder.is_truth_exact) return fmt::format("that of the{}simulated scene", gap);
     return fmt::format(

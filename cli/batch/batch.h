@@ -11,7 +11,8 @@
 
 namespace stormcellar::cli {
 
-// Exit status of a task that may succeed in another try or on another machine (EX_TEMPFAIL).
+// Exit status of a task that failed but may succeed in another try or on another machine
+// (EX_TEMPFAIL).
 inline constexpr int exit_try_again = 75;
 // Exit status of a check that finds unfinished tasks.
 inline constexpr int exit_incomplete = 3;

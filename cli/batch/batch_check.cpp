@@ -46,7 +46,7 @@ void print_left_out(const batch::Plan& plan, const CheckReport& report, std::siz
 }
 
 // Prints a row for each station. For each hour of the day, the row has the number of gridded
-// volumes, a minus and the number of volumes left out. Hours without a file show a dot.
+// volumes, a minus, and the number of volumes that were left out. Hours without a file show a dot.
 void print_table(const Totals& done) {
     fmt::print("{:<7}", "hour");
     for (int hour = 0; hour < 24; ++hour)

@@ -1,5 +1,5 @@
-// stormcellar batch plan --source DIR|URL --from T --to T -o PLAN: writes the tasks that make an
-// archive.
+// stormcellar batch plan --source DIR|URL --from T --to T -o PLAN: writes a plan, the file with the
+// tasks that make an archive's grids.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -91,7 +91,7 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
                                    const std::vector<std::string>& known) {
     if (Status good = check_mosaic_name(options.mosaic); !good) return pass_on(good);
     ArchiveOptions archive = options.archive;
-    archive.catalog = options.source;  // the source gives the volumes, in place of a catalog
+    archive.catalog = options.source;  // the source replaces a catalog: its volumes are used
     if (archive.stations.empty() && archive.bounds.empty())
         archive.stations = fmt::format("{}", fmt::join(known, ","));
     const auto request = parse_archive(archive);
@@ -123,7 +123,8 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
     return domain;
 }
 
-// Sets the shape of the stations' own grids. Returns the named stations, or all known ones.
+// Sets the shape of the grids of single stations. Returns the named stations, or all known
+// stations.
 Result<std::vector<std::string>> take_own_grids(const PlanOptions& options,
                                                 const std::vector<std::string>& known,
                                                 Recipe& recipe) {
@@ -260,7 +261,8 @@ void print_facts(const PlanOptions& options, const batch::Plan& plan) {
                format_byte_size(batch::bytes_of_counts(plan)));
 }
 
-// Checks the statistics, which count reflectivity only; their thresholds are in dBZ.
+// Checks the options for statistics, which count only reflectivity because their thresholds are in
+// dBZ.
 Status check_statistics(const PlanOptions& options, const Recipe& recipe) {
     if (!options.statistics && !options.cell_statistics) return {};
     const bool is_reflectivity = recipe.moments == std::vector{level2::Moment::ref};

@@ -49,8 +49,8 @@ Result<TaskRange> parse_tasks(const std::string& text) {
     return range;
 }
 
-// Returns the exit status for a failed task. Returns exit_try_again only if the system failed,
-// because a second try has the same data and the same plan.
+// Returns the exit status for a failed task. Returns exit_try_again only if the system failed:
+// after any other failure, a second try would fail on the same data and plan.
 int status_of(const Error& error) {
     if (error.cause() == Cause::system) return exit_try_again;
     return error.code == ErrorCode::bad_argument ? exit_bad_usage : exit_failed;
@@ -114,9 +114,10 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
     return outcome;
 }
 
-// Runs a range of tasks, and goes on after a failure. Returns the status of the last task that
-// failed for good, else exit_try_again if any failed or an interrupt came, else exit_done. A number
-// that is not in the plan, or a task of the wrong kind, ends the run with that error's status.
+// Runs a range of tasks, and goes on after a failure. Returns the status of the last task that no
+// other try can help. If there is none, returns exit_try_again if any task failed or an interrupt
+// came, else exit_done. A number that is not in the plan, or a task of the wrong kind, ends the run
+// with the status of that error.
 int run_tasks(const TaskCommand& command) {
     const auto range = parse_tasks(command.tasks);
     if (!range) return report_error(range.error());

@@ -55,7 +55,8 @@ Result<std::string> output_of(const std::string& command) {
 }
 
 std::string sbatch_command(const fs::path& script, const std::string& after) {
-    // Frame tasks check the records of their grids, so they may begin however the grid tasks ended.
+    // Frame tasks check the records of their grid tasks, so they may begin even if grid tasks
+    // failed.
     const std::string dependency =
         after.empty() ? "" : fmt::format(" --dependency=afterany:{}", after);
     return fmt::format("sbatch --parsable{} {}", dependency, quoted(script.native()));

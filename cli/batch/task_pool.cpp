@@ -22,7 +22,8 @@ struct Turn {
     int tries = 1;
 };
 
-// Starts a task as a child that writes to our output. Ctrl-C reaches this process and the child.
+// Starts a task as a child process that writes to our output. Ctrl-C reaches both this process and
+// the child.
 Result<pid_t> start(const PoolJob& job, std::size_t task) {
     return spawn(job.program,
                  {"batch", job.command, "--plan", job.plan, "--task", std::to_string(task),

@@ -74,7 +74,7 @@ void print_times(const level2::Volume& volume) {
     }
 }
 
-// Returns each moment once, with the number and length of its gates, as "REF 1832 x 250 m".
+// Returns each moment once, with the number and length of its gates, as in "REF 1832 x 250 m".
 std::string moments_text(const level2::Sweep& sweep) {
     std::string text;
     for (const level2::Moment name : level2::all_moments) {
@@ -165,7 +165,7 @@ std::uintmax_t size_of(const std::vector<std::filesystem::path>& chunks) {
     return sum;
 }
 
-// Checks, before long work, that the CfRadial file can be written.
+// Checks, before the long work begins, that the CfRadial file can be written.
 Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
     for (const std::string& file : options.files) {
@@ -178,8 +178,8 @@ Status check_output(const InfoOptions& options) {
                              options.json);
 }
 
-// Returns the number of the volume to write, from 0. If the file is a set of chunks, only one
-// volume was decoded.
+// Returns the index of the volume to write. The index is 0 if the file is a set of chunks of which
+// only the chosen volume was decoded.
 Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& file,
                                   std::size_t count) {
     if (!file.chunks.empty() && count == 1) return 0;

@@ -12,9 +12,9 @@
 
 namespace stormcellar::cli {
 
-// Writes volumes[number] of `source`. Problems found in the file become notes. Replaces an existing
-// file. With own_ranges, each gate geometry gets its own range axis. Errors: those of
-// netcdf::write_volume().
+// Writes volumes[number] of the file `source`. Problems that the decoder found become notes in the
+// result. Replaces an existing file. With own_ranges, each gate geometry gets its own range axis.
+// Errors: those of netcdf::write_volume().
 [[nodiscard]] Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
                                    const level2::DecodeReport& report,
                                    const std::filesystem::path& source,

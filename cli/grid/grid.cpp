@@ -55,14 +55,14 @@ Status write_all(const GridOptions& options, const std::vector<grid::Grid>& grid
     auto output = OutputFile::open(options.output);
     if (!output) return pass_on(output);
     const auto* format = grid_export::grid_format_of(options.output);
-    // Standard output has no ending, so it gets the default format.
+    // Standard output has no file ending that chooses a format, so use the default format.
     if (format == nullptr) format = &grid_export::grid_formats().front();
     const auto written = format->write(real_file_system(), output->path(), grids);
     if (!written) return written;
     return output->finish();
 }
 
-// Prints notes. A note that several moments share is printed once.
+// Prints notes. Prints a note only once if several moments have it.
 void print_notes(const std::vector<grid::Grid>& grids, const std::vector<MomentRequest>& moments) {
     std::set<std::string> said;
     for (const grid::Grid& grid : grids) {

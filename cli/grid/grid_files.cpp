@@ -16,7 +16,8 @@
 namespace stormcellar::cli {
 namespace {
 
-// kept for one file: the table of the site frame (places seen from the site), and the exact table
+// Number of geometry tables that are kept for one file: the table of the site frame (which places
+// cells as seen from the site), and the exact table.
 constexpr std::size_t most_geometries = 2;
 
 grid::GridderOptions gridder_options(const GridRequest& request, const MomentRequest& of,
@@ -39,7 +40,8 @@ struct FileScene {
     pipeline::GeometryCache geometries{most_geometries};
 };
 
-// Grids without a plan: by the default choice for each step, changed by the typed effects.
+// Grids without a plan: uses the default choice for each step, changed by the effects that were
+// typed.
 Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;
@@ -97,7 +99,8 @@ bool is_gridded(const GridRequest& request, level2::Moment moment,
     return !request.any_moment || std::ranges::any_of(volumes, has);
 }
 
-// Returns a grid of each moment. Stops after the first grid that does not meet its budget.
+// Returns a grid of each requested moment. Stops after the first grid that does not meet its
+// budget.
 Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridRequest& request,
                                         const std::vector<MomentRequest>& moments,
                                         GridTimings& timings, std::vector<SourceVolume>* kept) {
@@ -127,8 +130,8 @@ Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridReque
     return all;
 }
 
-// Merges the files for one instant, which is the requested time or else the instant chosen for the
-// first moment.
+// Merges the files into grids for one instant: the requested time, or else the instant that the
+// first moment's mosaic chooses.
 Result<std::vector<MadeGrid>> grid_files(const std::vector<std::string>& files, GridRequest request,
                                          const std::vector<MomentRequest>& moments,
                                          GridTimings& timings, std::vector<SourceVolume>* kept) {

@@ -19,7 +19,7 @@
 
 namespace stormcellar::cli {
 
-// The options of one moment, parsed.
+// The parsed options of one moment.
 struct MomentRequest {
     level2::Moment moment = level2::Moment::ref;
     EffectRequest effects;
@@ -30,17 +30,18 @@ struct MomentRequest {
     const GridOptions& options, const GridRequest& request, const EffectOptions& effect_options,
     const MosaicOptions& mosaic_options);
 
-// A grid, and its plan if a plan was requested.
+// A grid, with its plan if a plan was requested.
 struct MadeGrid {
     grid::Grid grid;
     std::optional<accuracy::Plan> plan;
 
-    // Returns true if the plan does not meet the budget; the grid is then empty.
+    // Returns true if the plan does not meet the budget. The grid is then empty.
     [[nodiscard]] bool has_failed() const { return plan && !plan->meets_budget; }
 };
 
-// Returns a grid of each moment. Stops after the first grid that does not meet its budget. Adds to
-// the timings. Moves the decoded volumes into `kept` unless `kept` is null. Errors name the file.
+// Returns a grid of each requested moment. Stops after the first grid that does not meet its
+// budget. Adds the times of the phases to the timings. Moves the decoded volumes into `kept` unless
+// `kept` is null. Errors name the file.
 [[nodiscard]] Result<std::vector<MadeGrid>> grid_inputs(const std::vector<std::string>& files,
                                                         const GridRequest& request,
                                                         const std::vector<MomentRequest>& moments,

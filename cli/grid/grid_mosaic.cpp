@@ -19,7 +19,8 @@ namespace {
 
 constexpr double beyond_sites_m = 230'000;  // extent of a mosaic beyond its outermost sites
 
-// Returns the extent, in kilometers, of whole cells that hold all sites and 230 km around them.
+// Returns the width and height in kilometers of the smallest grid of whole cells that holds all
+// sites and 230 km around them.
 std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
                                    grid::GeoPoint center, double spacing_km) {
     const grid::HalfExtent half = grid::half_extent_of(sites, center);
@@ -41,7 +42,8 @@ std::vector<grid::SitePosition> sites_of(const std::vector<SourceVolume>& source
     return sites;
 }
 
-// Returns the moments whose values must not be mixed between sites: "VEL and PHI".
+// Returns the names of the moments whose values must not be mixed between sites, as in "VEL and
+// PHI".
 std::string never_mixed() {
     std::vector<level2::MomentFacts> apart;
     for (const level2::MomentFacts& facts : level2::moment_facts) {

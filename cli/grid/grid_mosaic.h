@@ -23,17 +23,17 @@ struct MosaicOptions {
 };
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
-// Parses the options for one moment. Errors: bad_argument, naming the option, also for an option
-// that needs several files if there is only one. Averaging keeps its default here, because --effect
-// sets it.
+// Parses the options for one moment. Averaging keeps its default here, because --effect sets it.
+// Errors: bad_argument, naming the option; this includes an option that needs several files if
+// there is only one.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,
                                                        const GridRequest& request,
                                                        level2::Moment moment);
 
-// Returns a grid about the requested center, or about the middle of the sites. Without an extent
-// the grid reaches 230 km beyond the sites. Errors: those of spec_about().
+// Returns a grid about the requested center, or else about the middle of the sites. Without a
+// requested extent, the grid reaches 230 km beyond the sites. Errors: those of spec_about().
 [[nodiscard]] Result<grid::GridSpec> mosaic_spec(const std::vector<grid::SitePosition>& sites,
                                                  GridRequest request);
 
@@ -45,7 +45,7 @@ struct MosaicSources {
     double read_s = 0, decode_s = 0;
 
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes() const;
-    // Returns the volumes that hold the moment, or all volumes if none does.
+    // Returns the volumes that hold the moment. If none does, returns all volumes.
     [[nodiscard]] std::vector<pipeline::SceneVolume> scene_volumes(level2::Moment moment) const;
     [[nodiscard]] std::size_t site_count() const;
 };
@@ -53,9 +53,9 @@ struct MosaicSources {
                                                 const GridRequest& request);
 
 // Returns the request for the moment of `overlap`, on the grid of the sources. Without --time the
-// request has no instant. The mosaic's instant is then the middle between the earliest and the
-// latest of the sites' newest volumes. If one of these volumes is more than 15 minutes from there,
-// the instant is the middle of the newest volume.
+// request has no instant, and the mosaic chooses one: the middle between the earliest and the
+// latest of the sites' newest volumes. But if one of these volumes is more than 15 minutes from
+// that middle, the mosaic chooses the middle of the newest volume.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

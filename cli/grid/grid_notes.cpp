@@ -9,7 +9,7 @@ namespace {
 constexpr double farthest_guess_m = 500;
 constexpr std::chrono::hours usual_distance{1};
 
-// Returns, for example, "27 years", "3 days" or "1.5 hours".
+// Returns the span as text, for example "27 years", "3 days" or "1.5 hours".
 std::string span_text(std::chrono::milliseconds span) {
     using std::chrono::duration;
     const auto hours = duration<double, std::chrono::hours::period>(span).count();

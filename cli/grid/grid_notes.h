@@ -1,5 +1,5 @@
-// cli/grid/grid_notes.h -- remarks of `stormcellar grid` and `accuracy` on stderr about work that
-// succeeded.
+// cli/grid/grid_notes.h -- remarks that `stormcellar grid` and `accuracy` print on stderr when the
+// work succeeded but the user may have wanted something else.
 //
 // A note is a line without its line end. A function returns none if there is nothing to report.
 //
@@ -15,12 +15,14 @@
 
 namespace stormcellar::cli {
 
-// Notes that a sounding begins more than 500 m above the antenna, so the air below it is a guess.
+// Returns a note if a sounding begins more than 500 m above the antenna, because the air below it
+// is then a guess.
 [[nodiscard]] std::optional<std::string> note_on_sounding(const EffectRequest& effects,
                                                           const grid::SitePosition& site);
-// Notes that a requested time is more than an hour before the first or after the last radial used.
+// Returns a note if the requested time is more than an hour before the first radial used, or after
+// the last.
 [[nodiscard]] std::optional<std::string> note_on_frame_time(const grid::Grid& grid);
-// Notes that the radar sees no cell of the grid.
+// Returns a note if the radar sees no cell of the grid.
 [[nodiscard]] std::optional<std::string> note_on_cells(const grid::Grid& grid);
 
 // Returns all notes on a grid, including one on a profile that has no effect.

@@ -22,7 +22,7 @@ StateCounts count_states(const grid::Grid& grid) {
     return counts;
 }
 
-// Adds the contents of a grid of one moment, and how it was made.
+// Adds the facts of one moment's grid: its cells, and how it was made.
 void describe_cells(const grid::Grid& grid, nlohmann::ordered_json& json) {
     const auto counts = count_states(grid);
     for (const grid::CellStatus state : grid::states_of(grid.moment))

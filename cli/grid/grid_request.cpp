@@ -49,8 +49,8 @@ Result<std::array<double, 2>> parse_pair(std::string_view option, std::string_vi
     return std::array<double, 2>{(*given)[0], (*given)[1]};
 }
 
-// Returns the known projections: "azimuthal_equidistant (aeqd), latitude_longitude (lat-lon,
-// latlon)" and so on.
+// Returns a list of the known projections with their short names, such as "azimuthal_equidistant
+// (aeqd), latitude_longitude (lat-lon, latlon)".
 std::string known_projections(std::string_view before_last) {
     struct Named {
         std::string name;
@@ -83,7 +83,8 @@ std::string_view unit_name(SizeUnit unit) {
     return unit == SizeUnit::km ? "km" : "degree";
 }
 
-// Returns `cells`, the number of this spacing in the extent, or an error if there are too many.
+// Returns `cells`, the number of cells of this spacing in the extent, or an error if there are too
+// many.
 Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit) {
     constexpr int most = grid::GridSpec::greatest_side;
     if (cells <= most) return static_cast<int>(cells);
@@ -93,8 +94,8 @@ Result<int> count_of(double cells, double extent, double spacing, SizeUnit unit)
         extent, spacing, unit_name(unit), most, most * spacing);
 }
 
-// Returns how many cells an extent has. Errors: bad_argument if the number is not whole or is too
-// large.
+// Returns how many cells of this spacing an extent has. Errors: bad_argument if the number is not
+// whole or is too large.
 Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     const double cells = std::round(extent / spacing);
     const bool whole = cells >= 1 && std::abs(cells * spacing - extent) <= 1e-6 * extent;
@@ -106,8 +107,8 @@ Result<int> cells_along(double extent, double spacing, SizeUnit unit) {
     return count_of(cells, extent, spacing, unit);
 }
 
-// Returns how many cells cover the extent. Up to a millionth of a cell is taken for a rounding
-// error.
+// Returns how many cells cover the extent. Ignores an excess of up to a millionth of a cell as a
+// rounding error.
 Result<int> cells_over(double extent_deg, double spacing_deg) {
     const double cells = std::ceil(extent_deg / spacing_deg - 1e-6);
     if (!(cells >= 1)) {
@@ -212,7 +213,7 @@ Status choose_motion(const GridOptions& options, GridRequest& request,
     return fail(ErrorCode::bad_argument, "--storm-motion needs --moment SRV");
 }
 
-// Reads one moment. Where several are allowed, also reads a list of moments or "all".
+// Reads one moment. For a command that allows several, also reads a list of moments or "all".
 Status parse_moments(const GridOptions& options, GridRequest& request) {
     const std::string& text = options.moment;
     request.any_moment = options.takes_moments && text == every_moment;
@@ -370,7 +371,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     request.threads = options.threads > 0
                           ? options.threads
                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    // For several sites, the extent depends on the sites, which are not known yet.
+    // With several sites, the default extent depends on the sites, which are not known yet.
     const bool has_extent = request.extent_given || options.files.size() == 1;
     if (has_extent && (request.center_deg || grid::facts_of(request.projection).is_polar)) {
         if (const auto spec = spec_about(request, 0, 0); !spec) return pass_on(spec);

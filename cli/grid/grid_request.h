@@ -1,4 +1,4 @@
-// cli/grid/grid_request.h -- the options of `stormcellar grid`, and the request that they give.
+// cli/grid/grid_request.h -- the options of `stormcellar grid`, and their parsed form.
 #pragma once
 
 #include <array>
@@ -42,19 +42,19 @@ struct GridOptions {
     bool json = false;
 };
 
-// Adds FILE, --output, --time, --fields and the options of add_spec_options(); --moment may then
+// Adds FILE, --output, --time, --fields and the options of add_spec_options(). Also lets --moment
 // name several moments.
 void add_grid_options(CLI::App& app, GridOptions& options);
-// Adds the options for the place of the grid, and its cells and levels.
+// Adds the options for the center of the grid, its cells and its levels.
 void add_place_options(CLI::App& app, GridOptions& options);
-// Adds --volume, which chooses one of the volumes of a file, or of a directory of chunks.
+// Adds --volume, which chooses one volume of a file, or of a directory of chunks.
 void add_volume_option(CLI::App& app, GridOptions& options);
 // Adds the options for the grid, the moment and the number of threads.
 void add_spec_options(CLI::App& app, GridOptions& options);
 
 enum class SizeUnit { km, degrees };
 
-// The options, parsed as far as is possible before the site is known.
+// The options, parsed as far as is possible while the site is unknown.
 struct GridRequest {
     std::optional<std::array<double, 2>> center_deg;
     grid::Projection projection = grid::Projection::azimuthal_equidistant;
@@ -69,13 +69,14 @@ struct GridRequest {
     std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
                                                // of moments
     retrieve::DerivedOptions derived;          // for moments that are derived
-    bool any_moment = false;            // --moment all: leave out moments that no volume holds
-    std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time
-    grid::DetailSet details;            // for one file
-    bool site_counts = false;           // for several files
+    bool any_moment = false;                   // --moment all: leave out moments that no volume has
+    std::optional<UtcTime> frame_time;         // selects the sweeps nearest to this time
+    grid::DetailSet details;                   // with one file: the details to keep for each cell
+    bool site_counts = false;                  // with several files: count the sites of each cell
     bool site_weights = false;
     SiteRequest site;  // applies to every file
-    int volume = 0;    // number in a single file, from 1; 0: the first, or the newest of chunks
+    // Number in a single file, from 1; 0: the first volume, or the newest if it is chunks.
+    int volume = 0;
     // The files found for the names; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;
     int threads = 1;
@@ -84,17 +85,17 @@ struct GridRequest {
     [[nodiscard]] std::vector<level2::Moment> moments() const;
 };
 
-// Returns the named files, with archives and directories replaced by the files in them.
-// Errors: those of InputFiles::find().
+// Returns the named files. Replaces archives and directories by the files in them. Errors: those of
+// InputFiles::find().
 [[nodiscard]] Result<std::shared_ptr<InputFiles>> find_inputs(GridOptions& options);
 
-// Parses the options. With --center, or if the center does not matter, also checks the spec.
-// Errors: bad_argument, naming the option.
+// Parses the options. Checks the spec as well if --center is given, or if the center does not
+// matter for the check. Errors: bad_argument, naming the option.
 [[nodiscard]] Result<GridRequest> parse_request(const GridOptions& options);
 
-// Returns the requested grid about --center. Without --center, the given point is the center; it
-// must be valid. For a latitude-longitude grid, kilometers are converted to degrees at the center,
-// rounded up to whole cells.
+// Returns the requested grid about --center. Without --center, the given point, which must be
+// valid, is the center. For a latitude-longitude grid, converts kilometers to degrees at the center
+// and rounds up to whole cells.
 [[nodiscard]] Result<grid::GridSpec> spec_about(const GridRequest& request, double latitude_deg,
                                                 double longitude_deg);
 

@@ -12,7 +12,8 @@
 namespace stormcellar::cli {
 namespace {
 
-// Adds the derived moments. If any moment will do, a volume need not have velocities.
+// Adds the derived moments. If the request accepts any moment, a volume without velocities is no
+// error.
 Result<std::vector<std::string>> add_derived(const GridRequest& request, level2::Volume& volume) {
     const auto moments = request.moments();
     auto derived = retrieve::add_derived_moments(volume, moments, request.derived);
@@ -24,7 +25,7 @@ Result<std::vector<std::string>> add_derived(const GridRequest& request, level2:
                 lacks_motion ? "; give the motion, as in --storm-motion 240/15" : "");
 }
 
-// Returns what to decode for a request. The request must outlive the result.
+// Returns what must be decoded for a request. The request must outlive the result.
 grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cuts) {
     grid::SourceWish wish{
         .moments = request.moments(),
@@ -35,7 +36,7 @@ grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cu
     if (std::ranges::any_of(wish.moments, [](level2::Moment moment) {
             return level2::facts_of(moment).is_derived;
         })) {
-        wish.choose_cuts = {};  // all cuts help to dealias one
+        wish.choose_cuts = {};  // dealiasing a cut uses all cuts
         wish.derive = [&request](level2::Volume& volume) { return add_derived(request, volume); };
     }
     return wish;
@@ -79,10 +80,10 @@ Result<SourceVolume> load_volume(const std::string& file, const GridRequest& req
         return fail(ErrorCode::bad_argument, "{}: holds several files; name one of them", file);
     }
     grid::SourceWish wish = wish_of(request, choose_cuts);
-    // If the directory has chunks, InputFiles has already chosen the volume.
+    // For a directory of chunks, InputFiles has already chosen the volume.
     if (named->chunks.empty()) wish.volume = request.volume;
-    // Volumes are counted by their sweeps, and a volume may have none of the chosen cuts, so decode
-    // all cuts.
+    // Volumes are counted by their sweeps, and a volume may have none of the chosen cuts. So decode
+    // all cuts if the volume is chosen by its number.
     if (wish.volume > 0) wish.choose_cuts = {};
     auto read = read_and_decode(*inputs, *named, wish);
     if (!read) return pass_on(read);

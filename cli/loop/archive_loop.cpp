@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 using pipeline::ArchiveVolume;
 using pipeline::Domain;
 
-// how often the bar is updated and Ctrl-C is checked
+// Time between two updates of the progress bar and two checks for Ctrl-C.
 constexpr auto glance = std::chrono::milliseconds{50};
-constexpr std::size_t most_names = 6;  // of stations in a mosaic's name
+constexpr std::size_t most_names = 6;  // at most this many stations appear in a mosaic's name
 
 std::string mosaic_name(const ArchiveCall& call, const std::vector<std::string>& stations) {
     if (!call.domain.empty()) return call.domain;
@@ -126,7 +126,8 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
     return stations;
 }
 
-// Checks the stations. A named station that does not exist is a mistake, which `nothing` reports.
+// Checks the stations. If a named station does not exist, the user made a mistake; `nothing`
+// reports it.
 Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();
@@ -152,7 +153,7 @@ void note_without_volumes(const ArchiveCall& call, const std::vector<ArchiveVolu
     }
 }
 
-// Prints what there is to do, and refuses a fill that does not fit.
+// Prints how much must be done, and refuses to fill a cache that has too little space.
 Status announce(const ArchiveCall& call, const pipeline::ArchivePlan& plan,
                 const pipeline::ArchiveFill& fill, const std::vector<ArchiveVolume>& volumes,
                 const std::vector<ArchiveVolume>& missing, std::size_t frames) {
@@ -213,7 +214,7 @@ void say_left_out(const ArchiveCall& call, const std::vector<ArchiveVolume>& mis
     warn(grids.report.left_out, "left out: ");
 }
 
-// Fills in the grids, with one progress bar for the volumes and one for a mosaic's frames.
+// Makes the missing grids, with one progress bar for the volumes and one for a mosaic's frames.
 Status fill(const ArchiveCall& call, pipeline::ArchiveFill& filling,
             const std::vector<ArchiveVolume>& missing, const std::vector<UtcTime>& instants,
             Interrupt& interrupt, ArchiveGrids& grids) {
@@ -255,7 +256,8 @@ Status add_left_out(const ArchiveCall& call, const catalog::CatalogReader& catal
     return {};
 }
 
-// Opens the cache, with retries: a process that was just killed may hold the lock a moment longer.
+// Opens the cache. Tries several times, because a process that was just killed may hold the lock a
+// moment longer.
 Result<cache::RollingStore> open_cache(const fs::path& directory) {
     auto store = cache::RollingStore::open(real_file_system(), directory, {});
     for (int tries = 1; tries < 20 && !store; ++tries) {
@@ -344,7 +346,7 @@ Status leave_cache(const ArchiveCall& call, ArchiveGrids& grids) {
         }
         return {};
     }
-    // Remove the cache while its lock is held, so that no other loop opens it meanwhile.
+    // Remove the cache while its lock is held, so that no other loop can open it before it is gone.
     std::error_code error;
     fs::remove_all(grids.directory, error);
     grids.store.reset();

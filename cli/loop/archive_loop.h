@@ -1,9 +1,10 @@
-// cli/loop/archive_loop.h -- makes the missing grids for a loop of an archive
+// cli/loop/archive_loop.h -- makes the grids that a loop of an archive needs and the cache lacks
 // (pipeline/care/archive_fill.h).
 //
-// The grids are kept in --cache, or below $XDG_CACHE_HOME (else ~/.cache) in a directory whose name
-// has a hash of everything that determines them: catalog, stations, grid, moment, rules, version.
-// One process at a time fills a cache.
+// The grids are kept in the cache of --cache. Without --cache they are kept in a private cache
+// below $XDG_CACHE_HOME (else ~/.cache). The name of its directory has a hash of everything that
+// determines the grids: catalog, stations, grid, moment, rules, version. Only one process at a time
+// can fill a cache.
 #pragma once
 
 #include <chrono>
@@ -44,16 +45,16 @@ struct ArchiveGrids {
     std::optional<cache::RollingStore> store;  // locks the cache against other writers
     std::string domain;
     std::vector<cache::StoreEntry> entries;  // entries in the range, ascending in time
-    std::optional<pipeline::Domain> mosaic;  // none: a station's own grids
+    std::optional<pipeline::Domain> mosaic;  // none: the station's own grids
     pipeline::FillReport report;
     double fill_s = 0, frames_s = 0;
     std::filesystem::path directory;  // of the cache
-    std::uint64_t bytes = 0;          // in the cache; leave_cache() sets it
+    std::uint64_t bytes = 0;          // size of the cache; leave_cache() sets it
 };
 
-// Fills the cache, with progress on stderr. Prints to stderr which files it leaves out. Returns
-// none if nothing in the catalog matches; `nothing` then says why. An interrupt ends the process at
-// once; committed grids stay.
+// Fills the cache, with progress on stderr. Prints to stderr which files it leaves out. If nothing
+// in the catalog matches, returns none and says why in `nothing`. An interrupt ends the process at
+// once; grids that were committed stay.
 [[nodiscard]] Result<std::optional<ArchiveGrids>> fill_from_archive(const ArchiveCall& call,
                                                                     Interrupt& interrupt,
                                                                     std::string& nothing);

@@ -17,9 +17,9 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr int most_cells_a_side = 1024;  // for a grid without a requested spacing
+constexpr int most_cells_a_side = 1024;  // used if no spacing was requested
 
-// Returns an option that only makes sense with an archive; empty if none was given.
+// Returns a typed option that only makes sense with an archive, or an empty name if there is none.
 std::string_view stray_option(const ArchiveOptions& options) {
     const GridOptions& place = options.place;
     const bool placed = !place.center.empty() || !place.parallels.empty() ||

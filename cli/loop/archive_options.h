@@ -49,13 +49,13 @@ struct ArchiveRequest {
 // --catalog.
 [[nodiscard]] Result<ArchiveRequest> parse_archive(const ArchiveOptions& options);
 
-// Returns the requested grid, which holds the bounds. Without bounds, it has the typed extent, or
-// else holds the sites and 230 km around them. If neither extent nor spacing was typed, the spacing
-// is the smallest of 1, 2 and 4 km with which no side has more than 1024 cells, else 8 km.
+// Returns the requested grid, which holds the bounds. Without bounds, the grid has the typed
+// extent, or else holds the sites and 230 km around them. If neither extent nor spacing was typed,
+// the spacing is the smallest of 1, 2 and 4 km that gives at most 1024 cells a side, else 8 km.
 [[nodiscard]] Result<grid::GridSpec> archive_spec(const ArchiveRequest& request,
                                                   const std::vector<grid::SitePosition>& sites);
 
-// Parses "300", "90s", "5min" or "1h". Errors: bad_argument, naming the option.
+// Parses an interval such as "300", "90s", "5min" or "1h". Errors: bad_argument, naming the option.
 [[nodiscard]] Result<std::chrono::seconds> parse_interval(const std::string& option,
                                                           const std::string& text);
 

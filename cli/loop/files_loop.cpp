@@ -29,15 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A process that was just killed may hold the lock a moment longer, so try again.
+// Number of tries to get the lock, because a process that was just killed may hold the lock a
+// moment longer.
 constexpr int lock_tries = 20;
 constexpr auto lock_pause = std::chrono::milliseconds{50};
 constexpr std::size_t most_rejected_named = 20;
-// Every volume is between these times.
+// Times before and after every volume.
 constexpr UtcTime earliest{std::chrono::days{1}}, latest{std::chrono::days{100'000}};
 
 struct NamedFiles {
-    std::set<fs::path> named;   // files, archives, and directories of chunks
+    std::set<fs::path> named;   // the named files, archives, and directories of chunks
     std::vector<fs::path> all;  // including the chunks of the directories, sorted
 };
 
@@ -59,7 +60,7 @@ Result<NamedFiles> find_files(const std::vector<std::string>& names) {
         }
         files.named.insert(path);
         if (file.chunks.empty()) all.insert(path);
-        // The chunks are in the directory of this path.
+        // This path is a directory of chunks, which are files below it.
         for (const fs::path& chunk : file.chunks)
             all.insert(path / chunk.filename());
     }
@@ -125,7 +126,8 @@ Status make_catalog(const fs::path& catalog, const NamedFiles& files, const Loop
 }
 
 bool is_among(const std::set<fs::path>& files, const fs::path& path) {
-    if (files.contains(path) || files.contains(path.parent_path())) return true;  // also a chunk
+    // The file itself, or a chunk.
+    if (files.contains(path) || files.contains(path.parent_path())) return true;
     const auto names = member_names_in(path);
     return std::ranges::any_of(
         names, [&](const MemberName& name) { return files.contains(name.archive); });
@@ -182,7 +184,7 @@ Result<std::vector<pipeline::LeftOut>> rejected_among(const std::set<fs::path>& 
     if (!stations) return pass_on(stations);
     std::vector<pipeline::LeftOut> rejected;
     for (const std::string& station : *stations) {
-        // This also returns rows of rejected files; one row is enough.
+        // One row is enough. The list also has rows of rejected files.
         const auto rows = catalog.list(station, {{}, {}, true, 1});
         if (!rows) return pass_on(rows);
         for (const catalog::CatalogEntry& row : *rows) {

@@ -1,4 +1,4 @@
-// stormcellar loop: animates the grids of a time range.
+// stormcellar loop: makes an animation of the grids of a time range.
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -78,9 +78,9 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& 
     return {};
 }
 
-// Reports and removes the grids that cannot be opened, so that the file states the true number of
-// frames. Returns the first grid that can be opened. Its plan is used for all frames, and its
-// method is reported for them.
+// Reports and removes the grids that cannot be opened, so that the loop's description states the
+// true number of frames. Returns the first grid that can be opened. The plan for this grid is used
+// for all frames, and the report names its method for all.
 std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
     std::optional<cache::GridFile> first;
     bool is_mixed = false;
@@ -107,8 +107,8 @@ std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& repor
     return first;
 }
 
-// Fits the view to the echo of all grids. If frames are made when they are drawn, fits it to the
-// first grid only.
+// Fits the view to the echo of all grids. If grids are made only when their frames are drawn, fits
+// the view to the first grid alone.
 Status fit_loop(const LoopGrids& grids, const cache::GridFile& first, const LoopOptions& options,
                 LoopScene& shown) {
     render::Scene& scene = shown.scene;
@@ -147,8 +147,8 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     return {};
 }
 
-// Distributes the grids over the frames of the loop. A followed loop may begin with a single grid;
-// its camera then does not move until there are more.
+// Distributes the grids over the frames of the loop. A followed loop (--follow) may begin with a
+// single grid; its camera then does not move until there are more grids.
 Status spread(LoopGrids& grids, const LoopOptions& options) {
     auto& frames = grids.frames;
     grids.frames_there = frames.size();
@@ -171,7 +171,7 @@ void turn_back(std::vector<LoopFrame>& frames) {
     }
 }
 
-// Draws the loop. Returns the exit status. Interrupting a followed loop is not a failure.
+// Draws the loop and returns the exit status. An interrupt of a followed loop is not a failure.
 int draw_loop(LoopGrids grids, LoopOptions options, render::Scene scene, Interrupt& interrupt,
               SteadyTime start) {
     options.domain = grids.domain;
@@ -237,7 +237,7 @@ Result<std::vector<cache::StoreEntry>> entries_of(std::optional<cache::StoreRead
     return entries_now(*store, options, moment);
 }
 
-// Makes the loop again after each change, from the grids that exist then.
+// Makes the loop again after each change of the cache, from the grids that exist then.
 int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& interrupt) {
     auto opened = open_if_there(options.cache);
     if (!opened) return report_error(opened.error());
@@ -257,8 +257,8 @@ int follow_loop(LoopOptions options, const render::Scene& scene, Interrupt& inte
                   options.follow, interrupt.flag());
 }
 
-// Applies the camera path of the scene file, unless options say how the camera moves or where it
-// is. Then the camera begins at the first key of the path.
+// Applies the camera path of the scene file. Ignores the path if options say where the camera is or
+// how it moves. With the path, the camera begins at the path's first key.
 void take_camera_keys(LoopOptions& options) {
     if (options.camera.empty()) return;
     if (std::ranges::any_of(options.scene.typed,
@@ -271,7 +271,7 @@ void take_camera_keys(LoopOptions& options) {
     if (options.camera.front().look_at) camera.look_at = options.camera.front().look_at;
 }
 
-// Refuses panels. If a moment was typed, ignores the panels of a scene file.
+// Refuses panels if they were typed. If a moment was typed, ignores the panels of a scene file.
 Status refuse_panels(const LoopOptions& options) {
     const bool is_one = render::contains(options.scene.typed, render::moment_option());
     const bool are_in_file = !options.scene.panels.empty() && !is_one;
@@ -305,7 +305,8 @@ Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
     return {};
 }
 
-// Makes all checks that need no grid, and resolves options that depend on each other.
+// Makes all checks that are possible without a grid, and resolves options that depend on each
+// other.
 Result<render::Scene> check(LoopOptions& options) {
     if (options.scene_file.error) return tl::unexpected(*options.scene_file.error);
     if (auto fine = check_outputs(options.outputs); !fine) return pass_on(fine);
@@ -316,7 +317,7 @@ Result<render::Scene> check(LoopOptions& options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return pass_on(plan);
     options.plan = std::move(*plan);
-    // A check does not look at the cache, which may not exist yet.
+    // With --check, do not look at the cache, because it may not exist yet.
     const bool has_source = !options.domain.empty() || !options.typed_domain.empty() ||
                             !options.sources.empty() || options.archive.asked();
     if (options.only_check && !has_source) {
@@ -341,8 +342,8 @@ int only_check(const LoopOptions& options) {
     return range ? exit_done : report_error(range.error());
 }
 
-// Returns a temporary file for the output that goes to standard output, which is "-", or "-.gif"
-// and so on for a format other than WebP. Returns none if no output goes there.
+// If an output is standard output, returns a temporary file for it, else none. Standard output is
+// "-" (WebP), or "-.gif" and so on for another format.
 Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     const auto is_piped = [](const std::string& output) {
         return is_stdout(output) || output.starts_with("-.");
@@ -361,7 +362,7 @@ Result<std::optional<OutputFile>> take_stdout(LoopOptions& options) {
     return std::optional{std::move(*file)};
 }
 
-// Copies a finished loop to standard output, if it goes there.
+// Copies a finished loop to standard output if an output is standard output.
 int finish_piped(int status, std::optional<OutputFile>& piped) {
     if (status != exit_done || !piped) return status;
     const Status written = piped->finish();

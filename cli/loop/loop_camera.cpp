@@ -30,7 +30,7 @@ Camera orbiting(const LoopScene& shown, double by_deg) {
     return render::turned(shown.view, by_deg, shown.scene.curved_earth);
 }
 
-// Returns the camera with a position. A camera without a position gets the distance of the fitted
+// Returns the camera with a position. A camera without one is placed at the distance of the fitted
 // view.
 Camera placed(const LoopScene& shown, const Camera& camera) {
     if (camera.eye || camera.look_at) return camera;
@@ -39,8 +39,8 @@ Camera placed(const LoopScene& shown, const Camera& camera) {
     return render::turned(view, 0, shown.scene.curved_earth);
 }
 
-// Returns how far frame i is along the path, from 0 to 1. For a path that ends where it began, no
-// frame reaches 1, because the first frame of the loop has the same camera.
+// Returns how far along the path frame i is, from 0 to 1. If the path ends where it began, no frame
+// is at 1, because that frame would repeat the loop's first frame.
 double share_of(const CameraPath& path, std::size_t i, std::size_t there) {
     const std::size_t steps = path.is_closed() ? there : std::max<std::size_t>(there, 2) - 1;
     return static_cast<double>(i) / static_cast<double>(steps);
@@ -88,7 +88,8 @@ Result<std::vector<Camera>> cameras_of(const LoopSettings& settings, const LoopS
         return cameras;
     }
     Camera usual = shown.scene.camera;
-    if (shown.view.distance_m > 0) usual.eye.reset();  // its position follows from its direction
+    // The camera is placed from its direction instead.
+    if (shown.view.distance_m > 0) usual.eye.reset();
     const auto path = CameraPath::make(settings.camera, usual);
     if (!path) return pass_on(path);
     for (std::size_t i = 0; i < all; ++i) {

@@ -25,14 +25,14 @@ struct LoopScene {
 
 [[nodiscard]] bool moves_camera(const LoopSettings& settings);
 
-// Returns the number of frames of a loop, without the frames of --ping-pong that go back. `grids`
-// must be at least 1. Errors: bad_argument, with advice, if the camera would move in a single frame
-// or all frames would be the same.
+// Returns the number of frames of a loop, not counting the frames of --ping-pong that go back.
+// `grids` must be at least 1. Errors: bad_argument, with advice, if a loop of a single frame should
+// move its camera, or if all frames would be the same.
 [[nodiscard]] Result<std::size_t> frame_count(const LoopSettings& settings, std::size_t grids);
 
-// Returns a camera for each of `all` frames. With keys, the first `there` frames follow their path,
-// and later frames go back along it. An orbit goes on in the same direction through all frames.
-// Errors: those of CameraPath::make().
+// Returns a camera for each of `all` frames. If there are keys, the first `there` frames follow
+// their path, and the later frames go back along it. An orbit goes on in the same direction through
+// all frames. Errors: those of CameraPath::make().
 [[nodiscard]] Result<std::vector<render::Camera>> cameras_of(const LoopSettings& settings,
                                                              const LoopScene& shown,
                                                              std::size_t there, std::size_t all);

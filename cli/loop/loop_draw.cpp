@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// A grid that exists, or a grid made for the instant.
+// The grid of a frame: a grid of the cache, or a grid that was made for the instant.
 struct FrameGrid {
     std::optional<cache::GridFile> file;
     const pipeline::MosaicFrame* made = nullptr;
@@ -23,7 +23,7 @@ struct FrameGrid {
     [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
 };
 
-// Returns the grid of a frame. Errors: not_found if no volume is near.
+// Returns the grid of a frame. Errors: also not_found if no volume is near the instant.
 Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between,
                           Drawing& drawing) {
     FrameGrid grid;
@@ -75,8 +75,8 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
                        : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);
-    if (const Status whole = grid->check_whole(); !whole) {  // its file was truncated while it was
-                                                             // drawn
+    // The file of the grid may have been truncated while the grid was drawn.
+    if (const Status whole = grid->check_whole(); !whole) {
         return skip(whole.error());
     }
     if (report.frames == 0) report.from = report.to = frame.time;

@@ -22,8 +22,8 @@ struct Drawing {
     UtcTime made_for{};
 };
 
-// Returns one frame; none, with the reason added to the report, if its grid is damaged or cannot be
-// made.
+// Draws one frame. If its grid is damaged or cannot be made, returns none and adds the reason to
+// the report.
 [[nodiscard]] Result<std::optional<render::Image>> draw(
     const LoopFrame& frame, const LoopOptions& options,
     std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);

@@ -1,5 +1,5 @@
-// cli/loop/loop_encoding.h -- encodes the frames of a loop into all of its files while the next
-// frame is drawn.
+// cli/loop/loop_encoding.h -- encodes a frame of a loop into all output files while the next frame
+// is drawn.
 #pragma once
 
 #include <atomic>
@@ -25,10 +25,11 @@ class Encoding {
   public:
     explicit Encoding(Writers writers) : writers_(std::move(writers)) {}
 
-    // Waits for the previous frame, starts to encode this one, and returns the first error of the
-    // previous frame.
+    // Waits until the previous frame is encoded, starts to encode this frame, and returns the first
+    // error of the previous frame.
     Status add(render::Image frame);
-    // Waits for the last frame and finishes each file. Stops before the next file if `stop` is set.
+    // Waits for the last frame and then finishes each file. Does not begin another file once `stop`
+    // is set.
     Status finish(const std::atomic<bool>& stop);
     // Returns the seconds of encoding, summed over the writers. Call it after finish().
     [[nodiscard]] double encode_s() const { return encode_s_; }

@@ -24,8 +24,8 @@ void set_frames(const std::vector<cache::StoreEntry>& entries, LoopGrids& grids)
     if (!entries.empty()) grids.sample = entries.front().path;
 }
 
-// Replaces the frames at the times of grids by frames at regular times. Uses existing grids of a
-// mosaic if they were made by the same rules.
+// Replaces the frames, which are at the times of grids, by frames at regular times. Uses existing
+// grids of a mosaic if they were made by the same rules.
 Status set_rhythm(const LoopOptions& options, level2::Moment moment, const Rhythm& rhythm,
                   LoopGrids& grids) {
     std::vector<std::string> problems;

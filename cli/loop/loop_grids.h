@@ -15,7 +15,7 @@
 
 namespace stormcellar::cli {
 
-// One frame. Its grid exists, or is made when the frame is drawn.
+// A frame of the loop. Its grid exists, or is made when the frame is drawn.
 struct LoopFrame {
     UtcTime time;
     std::optional<cache::StoreEntry> stored;
@@ -27,17 +27,18 @@ struct LoopGrids {
     TimeRange range;
     std::vector<LoopFrame> frames;  // ascending in time; empty: nothing matched, which has been
                                     // reported
-    std::size_t frames_there = 0;   // frames before those that go back
+    std::size_t frames_there = 0;   // number of frames before the frames that go back
     std::filesystem::path sample;   // an existing grid
-    std::optional<pipeline::BetweenGrids> between;  // makes the frames that do not exist
-    std::optional<ArchiveCall> call;                // for an archive
+    std::optional<pipeline::BetweenGrids> between;  // makes grids of frames that do not exist
+    std::optional<ArchiveCall> call;                // set if the grids come from an archive
     std::optional<ArchiveGrids> archive;
 };
 
-// Returns the frames for the existing grids of a cache.
+// Returns a frame for each of these grids of a cache.
 [[nodiscard]] LoopGrids grids_of(const cache::StoreReader& store, const std::string& domain,
                                  const std::vector<cache::StoreEntry>& entries);
-// Returns the requested grids that a cache has now. Relative times count from the call.
+// Returns the requested grids that a cache has now. Relative times such as "1h ago" count from the
+// call.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_now(const cache::StoreReader& store,
                                                                  const LoopOptions& options,
                                                                  level2::Moment moment);

@@ -81,8 +81,8 @@ Result<Rhythm> rhythm_of(const LoopOptions& options) {
 }
 
 Status take_sources(LoopOptions& options) {
-    // For files or an archive, the domain is only a name for the mosaic, so do not look for it in a
-    // cache.
+    // With files or an archive, the domain is only a name for the mosaic, so do not look for it in
+    // a cache.
     auto names = tell_apart_from_cache(options.sources, {}, options.cache_place);
     if (!names) return pass_on(names);
     options.files = std::move(names->files);
@@ -93,7 +93,7 @@ Status take_sources(LoopOptions& options) {
     for (const std::string& typed : {options.typed_domain, names->domain}) {
         if (!typed.empty()) options.domain = typed;
     }
-    // A scene file for a domain of the cache may be used with files; then ignore its domain.
+    // The scene file may name a domain of the cache. With files, ignore that domain.
     if (!options.files.empty()) options.domain = options.typed_domain;
     if (!options.files.empty() || options.archive.asked()) {
         options.cache = options.cache_place.directory;

@@ -25,8 +25,8 @@ struct LoopReport {
     std::size_t frames = 0;
     std::vector<Skipped> skipped;
     UtcTime from, to;              // range of the drawn frames
-    std::size_t interpolated = 0;  // number of frames
-    double between_s = 0;          // time for making them
+    std::size_t interpolated = 0;  // number of frames made between volumes
+    double between_s = 0;          // seconds for making them
     double read_s = 0, render_s = 0, encode_s = 0, total_s = 0;
     bool interrupted = false;
 };

@@ -48,8 +48,8 @@ struct SweepFrame {
     std::size_t volume = 0;
     double elevation_deg = render::Scene::lowest_sweep;
     UtcTime time;
-    std::optional<UtcTime> nearest_to;  // chooses among several sweeps of the elevation; none: the
-                                        // newest
+    // Chooses among several sweeps of the elevation; none: the newest.
+    std::optional<UtcTime> nearest_to;
 };
 
 // State that the frames share, with the volume that was decoded last.
@@ -77,7 +77,7 @@ Status check_sweep_loop(const LoopOptions& options) {
     return {};
 }
 
-// Returns the volumes in an archive's catalog, or of cataloged files.
+// Returns the volumes of an archive's catalog, or of the files that were cataloged.
 Result<SweepSources> sources_of_archive(const LoopOptions& options) {
     const auto request = parse_archive(options.archive);
     if (!request) return pass_on(request);
@@ -136,7 +136,7 @@ Result<SweepSources> sources_of_domain(const LoopOptions& options) {
     return sources;
 }
 
-// Returns the decoded volume. Decodes it unless it is the volume that was decoded last.
+// Returns the decoded volume. Decodes the volume unless it is the one that was decoded last.
 Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t number,
                                      SweepDrawing& drawing) {
     if (drawing.decoded == number) return &*drawing.volume;
@@ -151,8 +151,8 @@ Result<const SweptVolume*> volume_of(const SweepSources& sources, std::size_t nu
     return &*drawing.volume;
 }
 
-// Limits the plane to a station's usual grid, unless the options set its size. A loop through all
-// elevations needs no more, because high sweeps reach only some kilometers.
+// Limits the plane to the extent of a station's usual grid, unless the options set its size. A loop
+// through all elevations needs no more, because its high sweeps reach only some kilometers.
 void limit_plane(const SweptVolume& volume, grid::GridSpec& plane) {
     if (volume.request.extent_given) return;
     const auto limited = [](int cells, double width_m) {
@@ -175,7 +175,7 @@ Result<PictureGrid> sweep_of(SweptVolume volume, const SweepFrame& frame, SweepD
     return PictureGrid::of_sweep(std::move(volume), drawing.scene, &*drawing.plane);
 }
 
-// Returns the middle of each sweep's time, ascending.
+// Returns the middle of each sweep's time, in ascending order.
 std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     std::vector<UtcTime> times;
     for (const level2::Sweep& sweep : volume.source().volume.sweeps) {
@@ -187,9 +187,9 @@ std::vector<UtcTime> times_of_sweeps(const SweptVolume& volume) {
     return times;
 }
 
-// Returns the frames that a volume may have. With --repeats there is a frame for the time of each
-// sweep. It shows the sweep of the elevation that is nearest in time, so several frames may show
-// the same sweep.
+// Returns the frames that a volume may have. With --repeats, there is a frame for the time of each
+// sweep of the volume. The frame shows the sweep of the chosen elevation that is nearest to that
+// time, so several frames may show the same sweep.
 std::vector<SweepFrame> frames_to_try(std::size_t number, const SweptVolume& volume,
                                       double asked_deg, const SweepDrawing& drawing) {
     std::vector<SweepFrame> frames;
@@ -225,7 +225,7 @@ std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic
             const auto sweep = sweep_of(**volume, frame, drawing);
             if (!sweep) {
                 leave_out(i, sweep.error());
-                if (frame.nearest_to) break;  // no sweep is near the elevation
+                if (frame.nearest_to) break;  // no sweep has nearly the chosen elevation
                 continue;
             }
             frame.time = sweep->description().time;
@@ -257,7 +257,7 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
     return encoding.add(std::move(*picture));
 }
 
-// Writes the description into the file. The first frame represents all.
+// Writes the description of the loop into the files. Describes the first frame for all frames.
 Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>& frames,
                      SweepDrawing& drawing, LoopOptions& options) {
     const auto volume = volume_of(sources, frames.front().volume, drawing);

@@ -1,6 +1,6 @@
-// cli/loop/sweep_loop.h -- makes loops of sweeps as the radar saw them (product ppi). A loop has
-// one sweep of each volume; with --all-elevations, one sweep of each elevation of each volume, from
-// the lowest up; with --repeats, each sweep of one elevation.
+// cli/loop/sweep_loop.h -- makes loops of sweeps as the radar saw them (product ppi). Each volume
+// gives one frame. With --all-elevations, each elevation of each volume gives a frame, from the
+// lowest up; with --repeats, each sweep of one elevation gives a frame.
 //
 // Sweeps are drawn from raw files: the named files, the files of an archive's catalog, or the raw
 // files of a domain's grids. If a volume repeats a sweep (SAILS, MRLE), the newest sweep is shown,

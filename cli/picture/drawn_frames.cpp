@@ -10,7 +10,7 @@ std::string text_of(const std::optional<render::Eye>& place) {
     return place ? fmt::format("{},{},{}", place->x_m, place->y_m, place->height_m) : "-";
 }
 
-// Returns the key of a frame; empty if there is no such file.
+// Returns a key for the frame, or an empty text if the grid has no file.
 std::string key_of(const std::filesystem::path& grid, const render::Scene& scene) {
     struct stat facts {};
     if (::stat(grid.c_str(), &facts) != 0) return {};
@@ -29,8 +29,7 @@ std::string key_of(const std::filesystem::path& grid, const render::Scene& scene
 
 Result<render::Image> DrawnFrames::frame(const std::filesystem::path& grid,
                                          const render::Scene& scene, const Draw& draw) {
-    // Take the key before drawing: if the grid is replaced in the meantime, its key differs next
-    // time.
+    // Make the key before drawing. If the grid is replaced meanwhile, its next key differs.
     const std::string key = key_of(grid, scene);
     if (const auto found = frames_.find(key); found != frames_.end()) {
         found->second.is_wanted = true;

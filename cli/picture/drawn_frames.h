@@ -1,9 +1,9 @@
 // cli/picture/drawn_frames.h -- keeps pictures of a followed loop for reuse.
 //
-// When a grid arrives, the new loop shares all frames but one with the loop before it. A frame is
-// identified by the file of its grid (path, inode, time and size) and by the parts of the scene
-// that may differ between frames, because of the plan or of the echo: camera, exaggeration,
-// opacity, light, slices, integration and rays.
+// When a grid arrives, a new loop is made, and all of its frames but one were also in the last
+// loop. A picture is identified by the file of its grid (path, inode, time and size) and by the
+// parts of the scene that may differ between frames, because the plan or the echo sets them:
+// camera, exaggeration, opacity, light, slices, integration and rays.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,8 +28,8 @@ class DrawnFrames {
     explicit DrawnFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
 
     using Draw = std::function<Result<render::Image>()>;
-    // Returns the picture of the grid's file. Draws it if it is not kept, and keeps it if there is
-    // room. All other parts of the scene must be the same in each call.
+    // Returns the picture of the grid's file. If the picture is not kept, draws it, and keeps it if
+    // there is room. All other parts of the scene must be the same in each call.
     Result<render::Image> frame(const std::filesystem::path& grid, const render::Scene& scene,
                                 const Draw& draw);
     // Forgets the pictures that the last loop did not use. Call it between two loops.

@@ -27,7 +27,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Draws the frame. `fit_s` is the part of the reading time that fitting the view took.
+// Draws the frame. `fit_s` is the time for fitting the view; it is part of the reading time.
 Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
                                const PictureGrid& file, SteadyTime start, double fit_s) {
     FrameTiming timing;
