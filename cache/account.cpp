@@ -23,7 +23,8 @@ void Account::ask_who_is_known(std::string_view group) {
     if (found != groups_.end()) set_known(found->second, is_known_(group));
 }
 
-// Moves the group's grids to their new places in the orders.
+// Marks the group as known or not, and moves its grids to their new places in the orders of
+// eviction.
 void Account::set_known(Group& group, bool known) {
     if (group.known == known) return;
     group.known = known;
@@ -86,7 +87,7 @@ void Account::count(Group& group, const Item& item, bool add) {
     apply(leaving_, entry.facts.bytes);
 }
 
-// Changes an entry, and updates its place in the orders and its share of the sums.
+// Changes an entry, and updates its place in the orders of eviction and its share of the sums.
 template <class Change>
 void Account::change(const GridName& name, Change what) {
     Item* const item = find_item(name);

@@ -1,12 +1,12 @@
 // cache/account.h -- records the contents of the cache, and chooses the grids to evict. Used only
 // inside the cache room.
 //
-// An account reads no file and no clock. Grids are evicted in the order of their times. If a grid's
-// time is more than 10 minutes in the future, the time at which its file was written counts
+// An account reads no file and no clock. Grids are evicted in the order of their times. If the time
+// of a grid is more than 10 minutes in the future, the time at which its file was written counts
 // instead, so that a radar with a wrong clock cannot fill the cache with grids that never grow old.
-// All grids of others (stormcellar/cache/budget.h) come before all grids of known groups. A grid is
-// not chosen while it is pinned, busy (being written or evicted) or stuck, or while its protection
-// counts.
+// "Grids of others" are grids whose group is not known (stormcellar/cache/budget.h). They are all
+// evicted before any grid of a known group. A grid is not chosen while it is pinned, busy (being
+// written or evicted), stuck (it could not be removed), or protected.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -34,17 +34,18 @@ struct GridFacts {
     bool pinned = false;
 };
 
-// The grids that may be chosen.
+// The grids from which to choose.
 enum class Reach {
     others,       // grids of groups that are not known
-    unprotected,  // also grids of known groups that are not protected
-    all,          // also the protected grids
+    unprotected,  // also unprotected grids of known groups
+    all,          // also protected grids
 };
 
-// The conditions under which the newest grids are protected from a limit.
+// The conditions under which a limit spares the newest grids.
 struct Protection {
-    std::chrono::milliseconds age{};     // the grid was written less than this ago; 0: at any time
-    std::optional<std::uint64_t> space;  // protected grids hold at most half of it; none: no limit
+    // Spares grids written less than this ago; 0: written at any time.
+    std::chrono::milliseconds age{};
+    std::optional<std::uint64_t> space;  // spares at most half of this space; none: no limit
 };
 
 class Account {
@@ -53,17 +54,17 @@ class Account {
 
     explicit Account(IsKnown is_known = is_known_group) : is_known_(std::move(is_known)) {}
 
-    // Sets the current time, which may make the times of more grids believable (is_believed()).
+    // Sets the current time. This may make the times of more grids believable (is_believed()).
     void set_now(UtcTime now);
-    // Sets the size of the file system, for budgets in percent; 0: not known.
+    // Sets the size of the file system, for budgets in percent; 0: unknown.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Asks `is_known` about all groups, or one group, again. Otherwise the account asks when the
-    // first grid of a group comes.
+    // Asks `is_known` again about one group, or about all. Otherwise the account asks once for each
+    // group, when the group's first grid comes.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
 
-    // Adds the grid, or replaces its facts. The grid is then neither busy nor stuck.
+    // Adds the grid, or replaces its facts. Afterward the grid is neither busy nor stuck.
     void put(const GridName& name, const GridFacts& facts);
     void erase(const GridName& name);
     [[nodiscard]] const GridFacts* find(const GridName& name) const;
@@ -72,11 +73,11 @@ class Account {
     void set_busy(const GridName& name);     // not chosen until put() or erase()
     void set_leaving(const GridName& name);  // busy, and its bytes will soon be free
     void set_stuck(const GridName& name);    // could not be removed: not chosen until put()
-    // Returns the names of one domain and moment from `from` to `to`.
+    // Returns the names of the grids of one domain and moment from `from` to `to`.
     [[nodiscard]] std::vector<GridName> names(const std::string& domain, level2::Moment moment,
                                               UtcTime from, UtcTime to) const;
 
-    // Counts bytes that are not in grids: of files being written, and of leftovers.
+    // Counts bytes that are not in grids: files being written, and leftovers.
     void reserve(std::string_view group, std::uint64_t bytes);
     void release(std::string_view group, std::uint64_t bytes);
 
@@ -89,49 +90,50 @@ class Account {
 
     // Returns the newest believable time of the group's grids, or none.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
-    // Returns true if a grid of this name is or would be the newest of its domain and moment.
+    // Returns true if a grid of this name is the newest of its domain and moment, or would be.
     [[nodiscard]] bool is_newest(const GridName& name) const;
     // Returns true if a grid of this name must be kept, even if protected grids must be evicted for
-    // it. A grid must be kept if its group is known, and it is pinned or is or would be the newest
-    // grid of its domain and moment.
+    // it. This is so if its group is known, and the grid is pinned, or is or would be the newest of
+    // its domain and moment.
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Returns true if a grid of this name, written now, is older than its group's limit of age. A
-    // pinned grid does not expire; nor does the newest grid of a domain and moment in a known
-    // group, unless it is a part.
+    // Returns true if a grid of this name, written now, is older than its group's limit of age.
+    // Returns false for a pinned grid. Returns false for the newest grid of a domain and moment in
+    // a known group, unless the grid is a part of a mosaic.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
-    // Returns the space of a budget, as stormcellar/cache/budget.h defines it; none: no limit.
+    // Returns the space that a budget allows, as stormcellar/cache/budget.h defines it; none: no
+    // limit.
     [[nodiscard]] std::optional<std::uint64_t> space_of(const Budget& budget) const;
     [[nodiscard]] std::optional<std::uint64_t> others_limit(const Budgets& budgets) const;
 
-    // Returns true if this many more bytes of the group fit now.
+    // Returns true if this many more bytes of the group fit into the budgets now.
     [[nodiscard]] bool fits(std::string_view group, std::uint64_t bytes,
                             const Budgets& budgets) const;
     // Returns the grids that must be evicted so that `bytes` of this grid fit, in addition to the
-    // grids that are being evicted already; none if that is impossible. Chooses only grids that
-    // come before this one, unless this one is_to_stay().
+    // grids that are being evicted already. Returns none if that is impossible. Chooses only grids
+    // that come before this grid in the order of eviction, unless this grid is_to_stay().
     [[nodiscard]] std::optional<std::vector<GridName>> room_for(
         const GridName& name, std::uint64_t bytes, const Budgets& budgets,
         Reach reach = Reach::unprotected) const;
-    // Returns the oldest grids that together hold `bytes` on disk, or fewer if there are no more.
-    // Chooses from all groups if the total budget limits space, otherwise from the grid's group;
-    // and only grids that room_for() may choose.
+    // Returns the oldest grids that together hold `bytes` on disk, or fewer grids if there are no
+    // more. Chooses from all groups if the total budget limits space, else from the grid's group.
+    // Chooses only grids that room_for() may choose.
     [[nodiscard]] std::vector<GridName> oldest(const GridName& name, std::uint64_t bytes,
                                                const Budgets& budgets) const;
 
-    // Returns the oldest grids that must be evicted so that the group (empty: all groups) holds at
-    // most `bytes`; at most `most` grids.
+    // Returns the oldest grids that must be evicted so that the group (empty: all groups together)
+    // holds at most `bytes`. Returns at most `most` grids.
     [[nodiscard]] std::vector<GridName> down_to(std::string_view group, std::uint64_t bytes,
                                                 std::size_t most, const Protection& protection = {},
                                                 Reach reach = Reach::unprotected) const;
     // Returns the oldest grids of others that must be evicted so that all grids of others together
-    // hold at most `bytes`; at most `most` grids.
+    // hold at most `bytes`. Returns at most `most` grids.
     [[nodiscard]] std::vector<GridName> others_down_to(std::uint64_t bytes, std::size_t most) const;
-    // Returns the group's grids that are older than its limit of age; at most `most`. Leaves out
-    // protected grids, except parts.
+    // Returns at most `most` grids of the group that are older than its limit of age. Leaves out
+    // protected grids that are not parts.
     [[nodiscard]] std::vector<GridName> expired(std::string_view group, const Budgets& budgets,
                                                 std::size_t most) const;
-    // Returns grids of others that were written longer ago than `protected_for`; at most `most`.
+    // Returns at most `most` grids of others that were written longer ago than `protected_for`.
     [[nodiscard]] std::vector<GridName> outlived(const Budgets& budgets, std::size_t most) const;
 
   private:
@@ -160,7 +162,7 @@ class Account {
                    std::tie(second.known, second.counted, *second.name);
         }
     };
-    using Order = std::set<const Item*, ByAge>;  // grids for which may_go() is true
+    using Order = std::set<const Item*, ByAge>;  // grids that may be evicted (may_go())
     struct Group {
         bool known = true;
         std::map<GridName, Entry> grids;
@@ -171,8 +173,8 @@ class Account {
 
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
-    // Returns the newest grid of the domain and moment among those with a believable time
-    // (is_believed()), or among all of them if no time is believable; null if there is none.
+    // Returns the newest grid of the domain and moment that has a believable time (is_believed()).
+    // If none has, returns the newest of all. Returns null if there is no grid.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
     // Visits the newest grid of each domain and moment of the group.
@@ -184,7 +186,7 @@ class Account {
     [[nodiscard]] std::set<const Item*> lapsed(const Group* group,
                                                const Protection& protection) const;
     class Shield;
-    // Returns the bytes of all grids of others, except those that are being evicted.
+    // Returns the size of all grids of others, without those that are being evicted.
     [[nodiscard]] std::uint64_t staying_of_others() const;
     [[nodiscard]] Order::const_iterator end_for(const Order& order, const GridName& name) const;
     Item* find_item(const GridName& name);

@@ -1,5 +1,4 @@
-// This part of the account finds the newest and the protected grids, and chooses the grids to
-// evict.
+// Finds the account's newest and protected grids, and chooses the grids to evict.
 #include <algorithm>
 
 #include "cache/account.h"
@@ -23,7 +22,7 @@ const Account::Item* Account::newest_of(const Group& group, const std::string& d
     return nullptr;
 }
 
-// Jumps from one domain and moment to the next, because these are few and grids are many.
+// Jumps from one domain and moment to the next, because there are few of these, but many grids.
 template <class Visit>
 void Account::for_each_newest(const Group& group, Visit visit) const {
     for (auto item = group.grids.begin(); item != group.grids.end();) {
@@ -50,7 +49,7 @@ bool Account::is_newest(const GridName& name) const {
     const Item* const item = newest_of(*group, name.domain, name.moment);
     if (item == nullptr) return true;
     const UtcTime newest = item->first.time;
-    // A grid with a believable time counts as newer than any grid without one.
+    // A grid with a believable time counts as newer than every grid without one.
     if (believed(name.time) != believed(newest)) return believed(name.time);
     return name.time >= newest;
 }
@@ -69,7 +68,7 @@ bool Account::is_protected(const Item& item, std::chrono::milliseconds age) cons
     return item.second.known && is_younger(item, age) && is_newest(item.first);
 }
 
-// Returns the grids whose protection does not count because protected grids would hold too much.
+// Returns the grids that lose their protection because protected grids would hold too much space.
 // The smallest grids keep their protection, so that as many grids as possible have it. A pinned
 // grid needs no protection.
 std::set<const Account::Item*> Account::lapsed(const Group* group,
@@ -97,8 +96,9 @@ std::set<const Account::Item*> Account::lapsed(const Group* group,
     return {first, items.end()};
 }
 
-// Tells which grids are protected from one limit, of a group or of all groups. Computes the lapsed
-// protections only when a protected grid comes up for eviction, which is rare.
+// Tells which grids are protected from one limit: the limit of a group, or the total limit. Finds
+// the grids that lose their protection only when a protected grid comes up for eviction, which is
+// rare.
 class Account::Shield {
   public:
     Shield(const Account& account, const Group* group, const Protection& protection)
@@ -158,8 +158,8 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
            (is_known(group) || within(used_by_others(), others_limit(budgets)));
 }
 
-// Returns the place in `order` where the grids end that may be evicted for a grid of this name. A
-// grid of others may only replace other grids of others.
+// Returns the end of the grids in `order` that may be evicted for a grid of this name. A grid of
+// others may only replace other grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));
@@ -174,7 +174,7 @@ std::optional<std::vector<GridName>> Account::room_for(const GridName& name, std
     std::set<const Item*> chosen;
     std::vector<GridName> victims;
     std::uint64_t freed = 0;
-    // Chooses grids from `order` until `used` and `bytes` together are within the limit.
+    // Chooses grids from `order` until `used` plus `bytes` is within the limit.
     const auto choose = [&](const Order& order, std::uint64_t used,
                             const std::optional<std::uint64_t>& limit, Shield shield) {
         if (!limit) return true;
@@ -278,7 +278,7 @@ std::vector<GridName> Account::expired(std::string_view group, const Budgets& bu
     return victims;
 }
 
-// A file that was written far in the future, by a wrong clock, counts as written long ago.
+// If a wrong clock wrote a file far in the future, the file counts as written long ago.
 std::vector<GridName> Account::outlived(const Budgets& budgets, std::size_t most) const {
     std::vector<GridName> victims;
     const auto age = budgets.protected_for;

@@ -58,8 +58,8 @@ bool is_stored_form(const BrickEntry& entry, const grid::Quantization& quantizat
            entry.max_code <= quantization.largest_code();
 }
 
-// Returns true if some cell has both bits set, which means a value. Tests all cells, in a loop that
-// the compiler vectorizes.
+// Returns true if some cell has both bits set, which means that it has a value. Tests all cells,
+// because the compiler vectorizes such a loop.
 bool claims_a_value(std::span<const std::byte> states) {
     constexpr std::byte low_bits{0x55};
     std::byte both{};

@@ -1,5 +1,5 @@
-// cache/check.h -- checks the conditions on a grid file beyond its checksum. Used only inside the
-// cache room.
+// cache/check.h -- checks what a checksum cannot prove: that the contents of a grid file are valid.
+// Used only inside the cache room.
 //
 // The writer and the reader use the same functions, so the writer refuses to write a file that the
 // reader would refuse to read.
@@ -18,20 +18,20 @@
 
 namespace stormcellar::cache {
 
-// Checks the sizes and numbers of the header: the spec, the moment, times (years 1970 to 9999),
-// sites (finite) and quantization (1 or 2 bytes, finite, a positive step); and at most
+// Checks that the sizes and numbers of the header are valid: the spec, the moment, times (years
+// 1970 to 9999), sites (finite), quantization (1 or 2 bytes, finite, a positive step), and at most
 // format::max_bricks bricks.
 [[nodiscard]] Status check_description(const GridDescription& description,
                                        const grid::Quantization& quantization);
 
-// Checks that every entry is of one of the three kinds and in the only allowed form: unused fields
-// are zero; counts, codes and packed sizes are in range; entries refer to all status blocks, once
-// each and in order; and no cell of a status block has the status `value`.
+// Checks that every entry is of one of the three kinds and has the only allowed form. Unused fields
+// are zero. Counts, codes and packed sizes are in range. The entries refer to all status blocks,
+// once each and in order. No cell of a status block has the status `value`.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);
 
-// Returns the packed size of all stored bricks together.
+// Returns the size of all stored bricks together, as packed.
 [[nodiscard]] std::uint64_t packed_size(std::span<const grid::BrickEntry> bricks);
 
 [[nodiscard]] std::uint64_t brick_count(const grid::GridSpec& spec);

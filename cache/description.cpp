@@ -36,8 +36,8 @@ enum class RecordKind : std::uint16_t {
     left_out = 21,
 };
 
-// A kind of record that holds one text, and its member of the provenance. An empty text that is
-// `optional` is not written.
+// A kind of record that holds one text, and the member of the provenance that the text is from. If
+// the text is `optional` and empty, no record is written.
 struct TextRecord {
     RecordKind kind;
     std::string grid::Provenance::*text;
@@ -51,7 +51,8 @@ constexpr std::array<TextRecord, 6> text_records = {
      {RecordKind::effects, &grid::Provenance::effects, true},
      {RecordKind::predicted_error, &grid::Provenance::predicted_error, true}}};
 
-// A kind of record that holds one element of a list of texts in the provenance.
+// A kind of record that holds one text of a list, and the member of the provenance that has the
+// list.
 struct ListRecord {
     RecordKind kind;
     std::vector<std::string> grid::Provenance::*list;
@@ -81,7 +82,7 @@ void append(std::vector<std::byte>& bytes, const T* first, std::size_t count) {
 
 void append_record(std::vector<std::byte>& bytes, RecordKind kind,
                    std::span<const std::byte> contents) {
-    // A length of more than 32 bits is cut here; the writer knows the true size and refuses it.
+    // The length loses bits above 32, but the writer knows the true size and refuses such a record.
     const RecordHead head{static_cast<std::uint16_t>(kind), 0,
                           static_cast<std::uint32_t>(contents.size())};
     append(bytes, &head, 1);
@@ -108,7 +109,7 @@ void append_site(std::vector<std::byte>& bytes, const grid::SitePosition& site) 
     append_record(bytes, RecordKind::site, contents);
 }
 
-// The bytes of a sweep in a record.
+// The form of a sweep in a record.
 struct StoredSweep {
     double elevation_deg = 0;
     std::int64_t start_ms = 0;
@@ -123,7 +124,7 @@ void append_sweep(std::vector<std::byte>& bytes, const grid::SweepTime& sweep) {
     append_record(bytes, RecordKind::sweep, std::as_bytes(std::span(&stored, 1)));
 }
 
-// The bytes of a part in a record. Its ICAO follows.
+// The form of a part in a record. The part's ICAO follows.
 struct StoredPart {
     std::int64_t time_ms = 0;
     std::uint64_t fingerprint = 0;
@@ -178,7 +179,7 @@ bool read_site(std::span<const std::byte> bytes, GridDescription& description) {
     return true;
 }
 
-// Returns true if the columns of the part are possible in a grid.
+// Returns true if the part's columns could be columns of a grid.
 bool is_window(const StoredPart& part) {
     constexpr std::int32_t most = grid::GridSpec::greatest_side;
     const auto lies_within = [](std::int32_t first, std::int32_t count) {
@@ -239,7 +240,7 @@ bool read_text_record(RecordKind kind, std::span<const std::byte> contents,
     return true;
 }
 
-// Returns false if a record of this kind cannot have contents of this size or these numbers.
+// Returns false if a record of this kind cannot have contents of this size, or with these numbers.
 bool read_record(RecordKind kind, std::span<const std::byte> contents,
                  GridDescription& description) {
     grid::Provenance& provenance = description.provenance;

@@ -1,8 +1,8 @@
 // cache/description.h -- the description section of a file: names and notes as a list of tagged
 // records. Used only inside the cache room.
 //
-// Strings are bytes as they came (a file name need not be UTF-8). Records of an unknown kind are
-// skipped, so a later version may add some.
+// Strings are stored as the bytes that were given, because a file name need not be UTF-8. A reader
+// skips records of an unknown kind, so a later version may add kinds.
 //
 // Threads   Pure functions.
 #pragma once
@@ -20,8 +20,8 @@ namespace stormcellar::cache {
 // parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Decodes the same parts. Errors: corrupt if a record runs past the end, has an impossible size, or
-// (for an audit) impossible numbers.
+// Decodes the same parts of a description. Errors: corrupt if a record runs past the end, has an
+// impossible size, or (in an audit) impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);
 

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns true if the entry has the type and is not a link. The entry usually contains the type, so
-// no system call is needed.
+// Returns true if the entry has the type and is not a link. The entry usually knows its type, so
+// that no system call is needed.
 bool is_of_type(const fs::directory_entry& entry, fs::file_type type) {
     std::error_code ignored;
     if (entry.is_symlink(ignored)) return false;
@@ -118,7 +118,8 @@ Result<DayContents> read_day(const fs::path& cache, const Day& day, UtcTime from
         const bool grid = time && day_name(*time) == day.day && *time >= from && *time <= to;
         if (!grid && !name.starts_with(temporary_prefix)) continue;
         struct stat facts {};
-        if (::lstat((directory / name).c_str(), &facts) != 0) continue;  // evicted meanwhile
+        // The grid was evicted since it was listed.
+        if (::lstat((directory / name).c_str(), &facts) != 0) continue;
         const std::uint64_t bytes = static_cast<std::uint64_t>(facts.st_blocks) * 512;
         if (grid) {
             const bool pinned =

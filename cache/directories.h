@@ -1,9 +1,10 @@
 // cache/directories.h -- reads the directories of a cache. Used only inside the cache room.
 //
-// Symbolic links are not followed. Files and directories without the names of a cache are left out,
-// and so are files that vanish while a directory is read. A missing directory counts as empty.
+// Symbolic links are not followed. Files and directories whose names do not belong in a cache are
+// left out, and so are files that vanish while their directory is read. A missing directory counts
+// as empty.
 //
-// Threads   Functions without state, which read directories.
+// Threads   The functions read directories and have no state.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,7 @@ namespace stormcellar::cache {
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_in(const std::filesystem::path& domain);
 [[nodiscard]] Result<std::vector<std::string>> days_in(const std::filesystem::path& moment);
 
-// One day of one moment of one domain.
+// A directory of the cache: one day of one moment of one domain.
 struct Day {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
@@ -55,15 +56,15 @@ struct FoundTemporary {
     std::uint64_t bytes_on_disk = 0;
 };
 struct DayContents {
-    std::vector<FoundGrid> grids;  // by time; only those from `from` to `to`
+    std::vector<FoundGrid> grids;  // by time; only grids from `from` to `to`
     std::vector<FoundTemporary> temporaries;
 };
 [[nodiscard]] Result<DayContents> read_day(const std::filesystem::path& cache, const Day& day,
                                            UtcTime from = UtcTime{},
                                            UtcTime to = last_possible_time);
 
-// Removes the temporary files of killed writers from the cache's directory and the directories of
-// days. Call it only if nobody is writing.
+// Removes the temporary files of killed writers from the cache's directory and from the directories
+// of days. Call it only if nobody is writing.
 [[nodiscard]] Status sweep_temporaries(FileSystem& file_system, const std::filesystem::path& cache);
 
 }  // namespace stormcellar::cache

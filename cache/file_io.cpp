@@ -56,7 +56,8 @@ Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
 }
 
 Map::~Map() {
-    registration_.release();  // first, because the addresses may then be used by another map
+    // First, because the addresses may belong to another map after unmapping.
+    registration_.release();
     if (start_ != nullptr) ::munmap(const_cast<std::byte*>(start_), size_);
 }
 

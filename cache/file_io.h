@@ -1,6 +1,7 @@
-// cache/file_io.h -- reads a file that may change at any time. Used only inside the cache room.
+// cache/file_io.h -- reads a file that may change while it is read. Used only inside the cache
+// room.
 //
-// Messages name no file, because the caller adds the path with with_path().
+// Messages do not name the file, because the caller adds its path with with_path().
 #pragma once
 
 #include <cstddef>
@@ -17,9 +18,9 @@
 
 namespace stormcellar::cache {
 
-// A read-only map of a whole file, registered with the guard of cache/map_guard.h. The whole file
-// is mapped because the start of a map must be a multiple of the machine's page size, which may be
-// larger than the page size of the format.
+// A read-only map of a whole file, registered with the guard of cache/map_guard.h. A map must start
+// at a multiple of the machine's page size, which may be larger than the page size of the format,
+// so the map starts at the beginning of the file.
 class Map {
   public:
     static Result<Map> of(const Descriptor& file, std::uint64_t size);
@@ -32,7 +33,7 @@ class Map {
     Map& operator=(const Map&) = delete;
     ~Map();
     [[nodiscard]] std::span<const std::byte> bytes() const { return {start_, size_}; }
-    // Returns true if the guard has replaced the map by zeros.
+    // Returns true if the guard has replaced the contents of the map by zeros.
     [[nodiscard]] bool was_cut() const { return registration_.was_cut(); }
 
   private:

@@ -16,17 +16,17 @@ namespace stormcellar::cache::format {
 
 static_assert(std::endian::native == std::endian::little, "grid files are mapped as they stand");
 
-// The first bytes of a file. They distinguish it from text, and show damage by a 7-bit transfer or
-// a conversion of line ends.
+// The first bytes of a file. They distinguish the file from text. They differ if the file was sent
+// over a 7-bit line, or if its line ends were converted.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 2;
-// Files of this version up to `version` are read. These versions differ only in the meaning of
-// their records.
+// The oldest version that is read. The versions from here to `version` differ only in the meaning
+// of their records.
 inline constexpr std::uint32_t oldest_version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 
-// Limits of a file, which bound the memory of its reader.
+// Limits that bound the memory of a reader.
 inline constexpr std::uint64_t max_description_bytes = std::uint64_t{1} << 20;
 inline constexpr std::uint64_t max_bricks = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t max_metadata_bytes = std::uint64_t{1} << 29;
@@ -69,7 +69,7 @@ struct FileHeader {
     std::int64_t time_ms = 0;  // since 1970-01-01T00:00Z
     std::int64_t start_time_ms = 0;
     std::int64_t end_time_ms = 0;
-    double offset_x_cells = 0;  // for a window of a larger grid
+    double offset_x_cells = 0;  // position of the grid, if it is a window of a larger grid
     double offset_y_cells = 0;
 };
 static_assert(std::is_trivially_copyable_v<FileHeader>);
@@ -110,7 +110,7 @@ static_assert(offsetof(FileHeader, end_time_ms) == 192);
 static_assert(offsetof(FileHeader, offset_x_cells) == 200);
 static_assert(offsetof(FileHeader, offset_y_cells) == 208);
 
-// An entry of the brick table is the same on disk and in memory.
+// An entry of the brick table has the same bytes on disk and in memory.
 using grid::BrickEntry;
 static_assert(std::is_trivially_copyable_v<BrickEntry> && sizeof(BrickEntry) == 24);
 static_assert(offsetof(BrickEntry, kind) == 0);
@@ -134,9 +134,8 @@ static_assert(static_cast<int>(grid::Projection::lambert_conformal) == 2);
 static_assert(static_cast<int>(level2::Moment::ref) == 0);
 static_assert(static_cast<int>(level2::Moment::cfp) == 6);
 
-// The places of the sections. Between them there is only padding, so the sizes of the sections
-// determine their places. layout_of() does not overflow if its arguments are within the limits
-// above.
+// The places of the sections. Only padding is between the sections, so their sizes determine their
+// places. layout_of() does not overflow if its arguments are within the limits above.
 struct Layout {
     std::uint64_t levels_offset = page_size;
     std::uint64_t description_offset = 0;
@@ -161,7 +160,7 @@ struct Layout {
     at.file_size = at.codes_offset + at.codes_size;
     return at;
 }
-// Returns the layout `at`, changed so that the codes are packed into `codes_size` bytes.
+// Returns the layout `at` with the codes packed into `codes_size` bytes.
 [[nodiscard]] constexpr Layout packed_layout(Layout at, std::uint64_t codes_size) {
     at.codes_size = codes_size;
     at.file_size = at.codes_offset + codes_size;

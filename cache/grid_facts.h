@@ -1,7 +1,8 @@
-// cache/grid_facts.h -- reads the facts of a grid file, without its cells.
+// cache/grid_facts.h -- reads the facts of a grid file (its header and description), without its
+// cells.
 //
-// Only the bytes before the codes are read, so packed files take no longer than others. Programs
-// that list many grids use it.
+// Only the bytes before the codes are read, so reading a packed file takes no longer. Programs that
+// list many grids use these facts.
 //
 // Threads   Pure function, which reads a file.
 #pragma once

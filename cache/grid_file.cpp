@@ -1,8 +1,8 @@
-// This file opens grid files, and uses nothing in them before it is checked.
+// Opens grid files, and uses nothing in a file before it is checked.
 //
-// All bytes that control the reader (header, table, states, names) are read into our own memory and
-// checked there, so that another program that alters or cuts the file later cannot mislead us. Only
-// unpacked codes stay on disk and are mapped.
+// All bytes that control the reader (header, table, states, names) are copied into our own memory
+// and checked there. So another program that alters or cuts the file later cannot mislead the
+// reader. Only unpacked codes stay on disk and are mapped.
 #include "stormcellar/cache/grid_file.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 using format::FileHeader;
 using grid::BrickEntry;
 
-// Checks the fields on which reading the other fields depends. After this, sizes can be computed
+// Checks the fields on which the reading of other fields depends. Afterward, sizes can be computed
 // without overflow.
 Status check_identity(const FileHeader& header) {
     if (header.magic != format::magic) {
@@ -69,7 +69,8 @@ bool is_packed(const FileHeader& header) {
     return (header.required_features & format::packed_codes) != 0;
 }
 
-// Returns the layout that follows from the sizes in the header, which must have the same offsets.
+// Returns the layout that follows from the sizes in the header. Fails if the header has other
+// offsets.
 Result<format::Layout> checked_layout(const FileHeader& header) {
     const auto along = [](std::uint32_t cells) {
         return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));
@@ -81,7 +82,8 @@ Result<format::Layout> checked_layout(const FileHeader& header) {
     }
     format::Layout at = format::layout_of(header.nz, header.description_size, bricks,
                                           header.states_size, header.code_bytes);
-    // Packed codes are never longer than unpacked ones; the table must give the same length.
+    // Packed codes are never longer than unpacked codes. The table must give the same length as the
+    // header; this is checked later.
     if (is_packed(header) && header.codes_size <= at.codes_size) {
         at = format::packed_layout(at, header.codes_size);
     }
@@ -204,7 +206,7 @@ struct Codes {
     std::span<const std::byte> view;
 };
 
-// Unpacks each stored brick into its place and compares it with the checksum of its entry. One
+// Unpacks each stored brick into its place and compares it with the checksum in its entry. Only one
 // stretch of packed bricks is in memory at a time.
 Status unpack_all(const Descriptor& file, std::uint64_t offset, const grid::BrickView& view,
                   std::span<std::byte> places) {

@@ -30,8 +30,8 @@ struct GridFile::Mapping {
     [[nodiscard]] Status check_unchanged_size() const;
     [[nodiscard]] Status check_metadata() const;
     [[nodiscard]] Status check_stored_bricks() const;
-    // Reads the codes of a stored brick from `offset`, and advances `offset` to the next stored
-    // brick's codes.
+    // Reads the codes of a stored brick at `offset`, and advances `offset` to the codes of the next
+    // stored brick.
     [[nodiscard]] Status read_brick(std::size_t brick, std::uint64_t& offset,
                                     std::span<std::byte> codes) const;
     [[nodiscard]] Status check_holes() const;

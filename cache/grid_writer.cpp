@@ -1,5 +1,4 @@
-// This file writes grid files: first the metadata, then every run of stored bricks at its own
-// place.
+// Writes grid files: first the metadata, and then every run of stored bricks at its own place.
 #include <algorithm>
 #include <cstring>
 #include <system_error>
@@ -60,9 +59,9 @@ std::span<const std::byte> codes_of(const BrickView& view, std::size_t brick) {
     return view.codes.subspan(brick * size, size);
 }
 
-// Makes the table in its only form, so that the same cells always give the same bytes: unused
-// fields are zero, and status blocks occur once each and in order. Computes counts and checksums
-// from the cells, so that a file always agrees with its own table.
+// Makes the table in its only allowed form, so that the same cells always give the same bytes:
+// unused fields are zero, and each status block occurs once, in order. Computes counts and
+// checksums from the cells, so that a file always agrees with its own table.
 Tables canonical_tables(const BrickView& view, Packing packing) {
     Tables tables;
     tables.bricks.reserve(view.bricks.size());
@@ -146,7 +145,7 @@ void put(std::vector<std::byte>& bytes, std::uint64_t offset, std::span<const T>
     if (!items.empty()) std::memcpy(bytes.data() + offset, items.data(), items.size_bytes());
 }
 
-// Returns all bytes before the codes, checksum included.
+// Returns all bytes before the codes, including the checksum.
 std::vector<std::byte> metadata_bytes(const GridDescription& description, const BrickView& view,
                                       const format::Layout& at,
                                       std::span<const std::byte> description_bytes,
@@ -164,7 +163,7 @@ std::vector<std::byte> metadata_bytes(const GridDescription& description, const 
     return bytes;
 }
 
-// Makes one write for each run of consecutive stored bricks.
+// Writes each run of consecutive stored bricks with one call.
 Status write_codes(AtomicFile& file, const BrickView& view, const format::Layout& at) {
     const std::uint64_t brick_bytes =
         grid::brick_cells * static_cast<std::uint64_t>(view.quantization.code_bytes);
@@ -186,7 +185,7 @@ Status write_codes(AtomicFile& file, const BrickView& view, const format::Layout
     return {};
 }
 
-// Returns the size of the existing file, or `written` if it was already removed.
+// Returns the size of the file on disk, or `written` if the file was already removed.
 std::uint64_t size_on_disk(const std::filesystem::path& path, std::uint64_t written) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0) return written;
@@ -263,8 +262,8 @@ std::uint64_t most_bytes_on_disk(const GridDescription& description, const grid:
         format::layout_of(description.spec.levels_m.size(), encode_description(description).size(),
                           view.bricks.size(),
                           of_kind(BrickKind::status_only) * format::status_block_bytes, code_bytes);
-    // Counts the blocks of the metadata, then the blocks of each stored brick except one that it
-    // shares with the previous brick.
+    // Count the blocks of the metadata, and then the blocks of each stored brick, but not a block
+    // that the brick shares with the previous brick.
     std::uint64_t end_block = format::round_up(at.codes_offset, block_bytes) / block_bytes;
     std::uint64_t blocks = end_block;
     for (std::size_t i = 0; i < view.bricks.size(); ++i) {

@@ -1,8 +1,8 @@
 // cache/leftover_watch.h -- finds out if a failed write left a temporary file behind. Used only
 // inside the cache room.
 //
-// AtomicFile removes its temporary file when it fails. If the file system refuses even the removal,
-// the file stays and takes space, which must be counted.
+// AtomicFile removes its temporary file when it fails. If the file system refuses even that, the
+// file stays and takes space, which must be counted.
 //
 // Threads   One thread, for one file.
 #pragma once

@@ -13,11 +13,11 @@
 namespace stormcellar::cache {
 namespace {
 
-// The previous action of SIGBUS; written once, before the handler can run.
+// The action for SIGBUS before the guard was installed; set once, before the handler can run.
 struct sigaction former_action = {};
 
-// Replaces the registered map that has the address by zeros. Returns false if there is none or that
-// fails.
+// Replaces the contents of the registered map at the address by zeros. Returns false if there is no
+// such map or replacing fails.
 bool take_fault(void* address) {
     const auto place = reinterpret_cast<std::uintptr_t>(address);
     const auto range = cut_map_at(place);
@@ -27,8 +27,8 @@ bool take_fault(void* address) {
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED | MAP_NORESERVE, -1, 0) != MAP_FAILED;
 }
 
-// Restores the default, so that the fault happens again, or sends the signal again. Either ends the
-// program as it would without a handler.
+// Makes the signal end the program as it would without a handler. Restores the default action; then
+// a fault happens again by itself, and a signal that was sent is sent again.
 void end_by_signal(int signal, bool sent) {
     struct sigaction standard = {};
     standard.sa_handler = SIG_DFL;
@@ -50,7 +50,7 @@ void pass_to_former(int signal, siginfo_t* info, void* context, bool sent) {
 
 void on_bus_error(int signal, siginfo_t* info, void* context) {
     const int error_number = errno;
-    const bool sent = info->si_code <= 0;  // sent by kill(), so there is no address
+    const bool sent = info->si_code <= 0;  // by kill(), so there is no address
     if (sent || !take_fault(info->si_addr)) pass_to_former(signal, info, context, sent);
     errno = error_number;
 }

@@ -1,12 +1,12 @@
 // cache/map_guard.h -- turns the truncation of a mapped file into an error instead of the end of
 // the program.
 //
-// Reading a page of a map beyond the end of its file, or a page that the disk cannot deliver,
-// raises SIGBUS. With the guard, such a fault in the map of a GridFile turns the whole map into
-// zeros, and GridFile::check_whole() returns truncated from then on. So a user of a view must call
-// check_whole() afterward and discard the work on an error. Every other SIGBUS has its usual
-// effect. The program must install the guard, because handling signals is not the business of a
-// library.
+// A program that reads a page of a map beyond the end of the file, or a page that the disk cannot
+// deliver, gets the signal SIGBUS. With the guard, such a fault in the map of a GridFile replaces
+// the whole map by zeros, and GridFile::check_whole() returns truncated from then on. So a user of
+// a view must call check_whole() afterward and discard the work if it fails. Every other SIGBUS has
+// its usual effect. The program must install the guard, because a library should not handle
+// signals.
 #pragma once
 
 namespace stormcellar::cache {

@@ -7,7 +7,7 @@ namespace {
 
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free);
 
-// A block of places, which links to the next block when it is full. The first block needs no
+// A block of places. When it is full, it links to the next block. The first block needs no
 // allocation.
 struct Block {
     std::array<MapPlace, 256> places;
@@ -25,7 +25,7 @@ Block& block_after(Block& block) {
     auto* made = new Block;
     Block* nobody = nullptr;
     if (block.next.compare_exchange_strong(nobody, made)) return *made;
-    delete made;  // another thread was first
+    delete made;  // another thread has linked a block first
     return *nobody;
 }
 
@@ -60,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// The map whose read failed keeps its place during the fault, so a place that is being changed
-// belongs to another map.
+// A place that is being changed can be skipped: during the fault, the map whose read failed keeps
+// its place unchanged.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

@@ -1,5 +1,5 @@
-// cache/map_registry.h -- records which addresses belong to our maps, for a signal handler. Used
-// only inside the cache room.
+// cache/map_registry.h -- records which addresses belong to maps of grid files, so that a signal
+// handler can look them up. Used only inside the cache room.
 //
 // Threads   Many threads may call all functions at once. cut_map_at() may also be called in a
 //           signal handler, because it takes no lock and allocates no memory.
@@ -13,8 +13,8 @@
 
 namespace stormcellar::cache {
 
-// One place of the registry. Places are reused and never freed, so that a signal handler may search
-// them at any time.
+// A place in the registry, for one map. Places are reused and never freed, so that a signal handler
+// may search them at any time.
 struct MapPlace {
     std::atomic<bool> taken{false};
     std::atomic<std::uint32_t> changes{0};  // odd while begin and end are being changed

@@ -1,5 +1,5 @@
-// cache/packing.h -- packs bricks of codes with LZ4, and provides the memory for unpacking them.
-// Used only inside the cache room.
+// cache/packing.h -- packs bricks of codes with LZ4, and provides memory for unpacking them. Used
+// only inside the cache room.
 //
 // Threads   Functions without state.
 #pragma once
@@ -17,11 +17,11 @@ namespace stormcellar::cache {
 // Packs the codes of one brick. Returns them unchanged if packing would not make them shorter.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Unpacks into `codes`. Errors: corrupt if `packed` does not give exactly that many bytes.
+// Unpacks into `codes`. Errors: corrupt if `packed` does not unpack to exactly that many bytes.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
-// Memory that is all zeros at first. The system provides pages only where the memory is written, so
-// the places of absent bricks cost nothing.
+// Memory that is all zeros at first. The system provides a page only when it is written, so the
+// places of absent bricks take no memory.
 class SparseMemory {
   public:
     SparseMemory() = default;  // empty

@@ -32,8 +32,8 @@ bool is_at(const Descriptor& directory, const fs::path& path) {
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
-// Locks the directory's own descriptor, so that no lock file is needed. Tries again if the
-// directory was removed and made anew in the meantime.
+// Locks the directory of a day. Locks the directory itself, so that no lock file is needed. Tries
+// again if the directory was removed and made anew in the meantime.
 Result<Descriptor> lock_day(const fs::path& day) {
     for (;;) {
         Descriptor directory(::open(day.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));

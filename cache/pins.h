@@ -1,10 +1,10 @@
 // cache/pins.h -- pins grids, and evicts grids that are not pinned.
 //
 // A pin is an empty file beside the grid, X.scg.pin. Any process may set a pin, and the pin
-// outlives the process. The pin belongs to the name, so a grid that is replaced stays pinned.
-// Pinning and evicting lock the day's directory (flock, which the system releases when its holder
-// dies). So once pin_grid() has returned success, evict_grid() does not evict the grid; if the
-// eviction comes first, pin_grid() returns not_found.
+// outlives the process. The pin belongs to the grid's name, so a grid that is replaced stays
+// pinned. Pinning and evicting lock the directory of the day with flock, which the system releases
+// when its holder dies. So if pin_grid() comes first, evict_grid() does not evict the grid; if
+// evict_grid() comes first, pin_grid() returns not_found.
 //
 // Threads   Any thread of any process.
 // Errors    Messages name the path.
@@ -21,8 +21,8 @@ namespace stormcellar::cache {
 inline constexpr std::string_view pin_extension = ".pin";
 [[nodiscard]] bool is_pinned(const std::filesystem::path& grid);
 
-// Pins a grid; does nothing if it is pinned. On success the pin survives a power cut. Errors:
-// not_found if there is no grid.
+// Pins a grid. Does nothing if the grid is already pinned. On success the pin survives a power cut.
+// Errors: not_found if there is no grid.
 [[nodiscard]] Status pin_grid(FileSystem& file_system, const std::filesystem::path& grid);
 // Removes a pin, and returns true if there was one. The grid need not exist.
 [[nodiscard]] Result<bool> unpin_grid(FileSystem& file_system, const std::filesystem::path& grid);
@@ -34,8 +34,8 @@ enum class Evicted { gone, pinned, missing };
 [[nodiscard]] Result<Evicted> evict_grid(FileSystem& file_system,
                                          const std::filesystem::path& grid);
 
-// Removes the directory of a day if it is empty, and then the directories of its moment and its
-// domain likewise.
+// Removes the directory of a day if it is empty. Then does the same for the directory of its
+// moment, and then for the directory of its domain.
 void remove_empty_directories(const std::filesystem::path& day);
 
 }  // namespace stormcellar::cache

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_problems = 16;
 
-// Locks the directory's own descriptor, so that no lock file is needed in the cache.
+// Locks the cache directory itself, so that no lock file is needed in the cache.
 Result<Descriptor> lock_against_writers(const fs::path& directory) {
     Descriptor lock(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (lock.number() < 0) return directory_failure(directory, {errno, std::system_category()});
@@ -81,8 +81,8 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
-// Grids of others do not count for the total limit, because they must not bring known grids down to
-// the low mark.
+// Grids of others (whose group is unknown) do not count for the total limit here. Otherwise they
+// could cause known grids to be evicted down to the low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;
@@ -115,7 +115,7 @@ Result<std::optional<Reservation>> Roller::reserve(const GridName& name, std::ui
         if (victims && !victims->empty()) {
             evict(*victims);
         } else if (!in_flight_.empty()) {
-            changed_.wait(mutex_);  // what others write or evict may still make room
+            changed_.wait(mutex_);  // writes and evictions of other threads may still make room
         } else if (account_.is_to_stay(name)) {
             return fail(
                 ErrorCode::over_budget,
@@ -164,8 +164,7 @@ std::vector<Result<Evicted>> Roller::remove_files(const std::vector<GridName>& v
     return outcomes;
 }
 
-// The victims count until the removal of their names is synced, because before that, a power cut
-// may bring them back.
+// The victims count until their removal is synced. Before that, a power cut may bring them back.
 void Roller::evict(const std::vector<GridName>& victims) {
     for (const GridName& name : victims) {
         account_.set_leaving(name);
@@ -199,8 +198,8 @@ void Roller::evict(const std::vector<GridName>& victims) {
     changed_.notify_all();
 }
 
-// The loop ends because evict() takes the victims out of the account's order, even if they cannot
-// be removed.
+// The loop ends because evict() takes the victims out of the orders of eviction, even if their
+// files cannot be removed.
 void Roller::evict_all(const std::function<std::vector<GridName>()>& choose) {
     for (auto victims = choose(); !victims.empty(); victims = choose())
         evict(victims);
@@ -225,7 +224,8 @@ bool Roller::leaves_out(const GridName& name) {
 bool Roller::would_keep(const GridName& name) const {
     const std::string_view group = group_of(name.domain);
     const MutexLock lock(mutex_);
-    // The station became known after the account asked. The commit will ask again.
+    // The station became known after the account had asked. The commit will make the account ask
+    // again.
     if (!account_.is_known(group) && surroundings_.is_known(group)) return true;
     if (account_.is_expired(name, budgets_)) return false;
     if (account_.is_to_stay(name)) return true;

@@ -1,11 +1,11 @@
 // cache/roller.h -- keeps a cache within its budgets while it is written. Used only inside the
 // cache room; stormcellar/cache/store.h is the public header.
 //
-// A Roller has the account of the grids in the cache. open() makes the account from the files, and
-// each roll() corrects it if other programs removed, added or pinned grids. Before a commit writes
-// the first byte, it reserves the largest size that its file may take, and evicts grids if there is
-// too little room. The removal of names is synced before their room is used again. Each file is
-// removed in one step, so a crash leaves a grid whole or not at all.
+// A Roller has the account of the grids in the cache. open() makes the account from the files. Each
+// roll() corrects it if other programs removed, added or pinned grids. Before a commit writes the
+// first byte, the Roller reserves the largest size that the file may take, and evicts grids if
+// there is too little room. It syncs the removal of names before it uses their room again. Each
+// file is removed in one step, so a crash leaves a grid whole or removes it.
 //
 // Threads   Any thread. The account is not locked while files are written, or while grids are
 //           evicted.
@@ -35,8 +35,8 @@ namespace stormcellar::cache {
 
 class Roller;
 
-// Room for one file that is being written. The destructor frees the room, and enters the grid that
-// then exists at the path into the account: the new one, the old one or none.
+// Room for one file that is being written. The destructor frees the room. Then it enters into the
+// account the grid that exists at the path: the new grid, the old grid or none.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -64,16 +64,17 @@ class Roller {
                                                 std::filesystem::path directory, Budgets budgets,
                                                 Surroundings surroundings);
 
-    // Reserves room for a grid. Returns none if the budgets would not keep the grid, so that it
-    // need not be written. Commits of the same name wait for each other. Errors: over_budget if
-    // Account::is_to_stay() is true for the grid, but evicting all grids that may be evicted does
-    // not make enough room.
+    // Reserves room for a grid. Returns none if the budgets would not keep the grid, so that the
+    // caller need not write it. Commits of the same name wait for each other. Errors: over_budget
+    // if Account::is_to_stay() is true for the grid, but evicting all grids that may be evicted
+    // does not make enough room.
     Result<std::optional<Reservation>> reserve(const GridName& name, std::uint64_t bytes);
     // Evicts the oldest grids that together hold `bytes`. Call it after a full disk refused the
-    // grid. Returns false if no budget limits the space of its group or nothing was evicted.
+    // grid. Returns false if no budget limits the space of the grid's group, or if nothing was
+    // evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // Returns true, and counts the grid as not kept, if it is a grid of others. Such a grid is left
-    // out if the disk is full, because nobody should wait for it.
+    // If the grid's group is unknown, returns true and counts the grid as not kept. Such a grid is
+    // left out if the disk is full, because nobody should wait for it.
     bool leaves_out(const GridName& name);
     // Counts a temporary file that could not be removed. Later rolls try to remove it.
     void add_leftover(std::string_view group, const std::filesystem::path& path);
@@ -82,8 +83,8 @@ class Roller {
     RollReport roll(const OnStep& step = {});  // store.h
     void set_budgets(Budgets budgets);
     [[nodiscard]] StoreUsage usage() const;
-    // Returns true if the budgets would keep this grid if it had the mean size of all grids, by the
-    // time of the last reservation, settlement or roll.
+    // Returns true if the budgets would keep this grid if it had the mean size of all grids. The
+    // answer is as of the last reservation, settlement or roll.
     [[nodiscard]] bool would_keep(const GridName& name) const;
     [[nodiscard]] std::uint64_t block_bytes() const { return block_bytes_; }
 
@@ -102,7 +103,7 @@ class Roller {
     Roller(FileSystem& file_system, std::filesystem::path directory, Budgets budgets,
            Surroundings surroundings, Descriptor lock);
     void settle(const GridName& name, std::uint64_t reserved);
-    // Removes the files and syncs their directories; call it without the lock.
+    // Removes the files and syncs their directories. Call it while `mutex_` is not locked.
     [[nodiscard]] std::vector<Result<Evicted>> remove_files(const std::vector<GridName>& victims,
                                                             std::vector<std::string>& problems)
         STORMCELLAR_EXCLUDES(mutex_);

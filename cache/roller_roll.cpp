@@ -1,5 +1,5 @@
-// This part of the roller examines the whole cache every few seconds. It finds changes by other
-// programs, grids that are too old, and how full the file system is.
+// Examines the whole cache every few seconds. Finds changes by other programs, grids that are too
+// old, and how full the file system is.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The number of files that are removed in one batch. The oldest grids are spread over the
-// directories of all domains, and each directory is synced once for each batch, so small batches
-// would need a sync for nearly every file.
+// Number of files that are removed in one batch. The oldest grids are spread over the directories
+// of all domains, and a batch syncs each of these directories once. So small batches would need a
+// sync for nearly every file.
 constexpr std::size_t batch = 2048;
 // Every directory is read again after this many rolls, even if it seems unchanged.
 constexpr int rolls_between_full_readings = 60;
-// A directory that changed this recently may change again without a new modification time.
+// If a directory changed this recently, its next change may give it the same modification time.
 constexpr std::int64_t settling_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_now() {
@@ -32,7 +32,7 @@ struct Span {
 };
 std::optional<Span> span_of(const Day& day) {
     const auto from = parse_compact(day.day + "_000000");
-    if (!from) return std::nullopt;  // eight digits that are not a date: nothing in it is ours
+    if (!from) return std::nullopt;  // eight digits that are not a date, so no file in it is a grid
     return Span{*from, *from + std::chrono::days{1} - std::chrono::milliseconds{1}};
 }
 
@@ -62,8 +62,8 @@ Status Roller::reread(bool all, const OnStep& step) {
     return {};
 }
 
-// Holds the lock while it reads, so that no grid of this process appears or vanishes before
-// adopt().
+// Holds the lock while it reads. So no grid of this process can appear or vanish before adopt()
+// enters what was read.
 Status Roller::reread_day(const Day& day, bool even_unchanged) {
     const MutexLock lock(mutex_);
     struct stat facts {};
@@ -81,7 +81,7 @@ Status Roller::reread_day(const Day& day, bool even_unchanged) {
 }
 
 // Enters the grids of a day into the account. Skips grids that are being written or evicted,
-// because those operations update the account.
+// because these operations update the account themselves.
 void Roller::adopt(const Day& day, const DayContents& contents) {
     account_.set_now(surroundings_.now());
     if (const auto span = span_of(day)) {
@@ -98,7 +98,8 @@ void Roller::adopt(const Day& day, const DayContents& contents) {
         if (in_flight_.contains(name)) continue;
         account_.put(name, {grid.bytes_on_disk, grid.written, grid.pinned});
     }
-    // Files that this process writes are already reserved or among the leftovers.
+    // Files that this process is writing are not foreign: they are reserved, or among the
+    // leftovers.
     std::uint64_t foreign = 0;
     for (const FoundTemporary& temporary : contents.temporaries) {
         if (!temporary.name.starts_with(own_temporary_prefix())) foreign += temporary.bytes_on_disk;
@@ -127,7 +128,8 @@ void Roller::remove_leftovers() {
     });
 }
 
-// Evicts grids of others that were written long ago, and then grids of others beyond their share.
+// Evicts grids of others (whose group is unknown) that were written long ago, and then the oldest
+// of them beyond their share of the space.
 void Roller::limit_others(const OnStep& step) {
     const auto evict_each = [&](auto choose) STORMCELLAR_REQUIRES(mutex_) {
         evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
@@ -143,8 +145,8 @@ void Roller::limit_others(const OnStep& step) {
     });
 }
 
-// Enforces the budget of a group, or the total budget if the name is empty. The space of grids that
-// were evicted after `filling` was read counts as free in it.
+// Enforces the budget of a group, or the total budget if the name is empty. Counts the space of
+// grids as free if they were evicted after `filling` was measured.
 void Roller::keep_budget(const std::string& group, const std::optional<Filling>& filling,
                          RollReport& report, const OnStep& step) {
     const Budget budget = group.empty() ? budgets_.total : budgets_.of(group);
@@ -177,7 +179,7 @@ void Roller::keep_budget(const std::string& group, const std::optional<Filling>&
                 return account_.down_to(group, *target, batch, protection, reach);
             });
         };
-        // If only grids of others exceed the budget, no grid of a known group is evicted.
+        // If grids of others alone exceed the budget, evict no grid of a known group.
         bring_down(Reach::others);
         if (reached || held() > *limit) bring_down(Reach::unprotected);
     }

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Another process may remove an empty directory before the file is created in it, and other
-// programs may take the room that eviction made on a full disk.
+// A commit is tried this often: another process may remove an empty directory before the file is
+// created in it, and other programs may take the room that an eviction made on a full disk.
 constexpr int most_tries = 4;
 
 // Creates the directory, and syncs its parent, so that it survives a power cut.
@@ -87,9 +87,9 @@ Result<RollingStore> RollingStore::open(FileSystem& file_system, fs::path direct
     return RollingStore(file_system, std::move(directory), std::move(*roller));
 }
 
-// Creates the directory if it is missing, and syncs its parent, so that it survives a power cut.
-// The first use of an existing directory also syncs, because its creator may have been killed
-// before the sync.
+// Creates the directory if it is missing, and syncs its parent, so that the directory survives a
+// power cut. Also syncs at the first use of an existing directory, because its creator may have
+// been killed before the sync.
 Status StoreWriter::make_directory(const fs::path& directory) {
     std::error_code error;
     const bool created = fs::create_directory(directory, error);
@@ -212,8 +212,8 @@ Result<std::vector<StoreEntry>> StoreReader::list(const std::string& domain, lev
     if (!is_domain_name(domain)) return entries;
     const auto days = days_in(directory() / domain / std::string(level2::moment_name(moment)));
     if (!days) return pass_on(days);
-    // Days are compared by their names, so a query reads only the directories that it needs. Limits
-    // beyond the times that grids can have are clamped first.
+    // Days are compared by the names of their directories, so a query reads only the directories
+    // that it needs. First clamp the limits to times that grids can have.
     const UtcTime lower = from.value_or(UtcTime{});
     const UtcTime upper = to.value_or(last_possible_time);
     const std::string first_day = day_name(std::clamp(lower, UtcTime{}, last_possible_time));

@@ -1,6 +1,6 @@
-// This file checks that an open grid file has not changed since it was written. It reads through
-// the descriptor and never through the map, so a file that was cut in the meantime gives an error
-// and not a signal.
+// Checks that an open grid file has not changed since it was written. Reads through the descriptor
+// and never through the map, so a file that was cut in the meantime gives an error and not a
+// signal.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -36,8 +36,7 @@ Status GridFile::verify() const {
     return {};
 }
 
-// A file that was cut and then extended to its old size has changed as well, and its map shows
-// zeros.
+// A file that was cut and then extended to its old size has changed as well: its map shows zeros.
 Status GridFile::Mapping::check_map() const {
     if (Status same = check_unchanged_size(); !same) return same;
     if (!map || !map->was_cut()) return {};
@@ -50,8 +49,8 @@ Status GridFile::Mapping::check_unchanged_size() const {
     return check_size(static_cast<std::uint64_t>(facts->st_size), at.file_size);
 }
 
-// Metadata that changed on disk after they were read are damage too, although they cannot mislead
-// this reader.
+// If the metadata changed on disk after they were read, they are damaged, although they cannot
+// mislead this reader.
 Status GridFile::Mapping::check_metadata() const {
     std::vector<std::byte> bytes(metadata.size());
     if (Status read = read_at(file, 0, bytes); !read) return read;
@@ -85,7 +84,7 @@ Status GridFile::Mapping::read_brick(std::size_t brick, std::uint64_t& offset,
 
 Status GridFile::Mapping::check_stored_bricks() const {
     std::vector<std::byte> codes(brick_bytes());
-    std::uint64_t offset = at.codes_offset;  // of packed codes, which follow each other
+    std::uint64_t offset = at.codes_offset;  // of the next packed codes
     std::uint64_t stored = 0;
     std::uint64_t damaged = 0;
     std::optional<std::size_t> first;
@@ -108,7 +107,7 @@ Status GridFile::Mapping::check_stored_bricks() const {
                 damaged, stored, *first);
 }
 
-// The places of absent bricks must read as zeros.
+// Checks that the places of absent bricks read as zeros.
 Status GridFile::Mapping::check_holes() const {
     const auto is_stored = [&](std::size_t i) { return view.bricks[i].kind == BrickKind::stored; };
     for (std::size_t begin = 0; begin < view.bricks.size();) {
@@ -130,8 +129,8 @@ Status GridFile::Mapping::check_holes() const {
 Status GridFile::Mapping::check_zeros(std::uint64_t begin, std::uint64_t end) const {
     std::array<std::byte, format::page_size> page{};
     while (begin < end) {
-        // Holes are skipped without being read. If the file system cannot find holes, everything is
-        // data.
+        // Holes are skipped without being read. If the file system cannot find holes, it reports
+        // everything as data.
         const off_t data = ::lseek(file.number(), static_cast<off_t>(begin), SEEK_DATA);
         if (data < 0 && errno == ENXIO) return {};
         if (data >= 0 && static_cast<std::uint64_t>(data) >= end) return {};
