@@ -7,7 +7,7 @@
 
 namespace stormcellar::cli {
 
-// Each function is defined in the file of its subcommand.
+// Each of these functions is defined in the file of its subcommand.
 Run set_up_accuracy(CLI::App& command);
 Run set_up_batch(CLI::App& command);
 Run set_up_cache(CLI::App& command);
@@ -28,8 +28,8 @@ Run set_up_view(CLI::App& command);
 
 namespace {
 
-// The program stormcellar-first, which scripts/demo uses for its first picture, has only frame,
-// replay and synth.
+// The program stormcellar-first has only frame, replay and synth. scripts/demo uses it for its
+// first picture.
 constexpr std::array registry{
 #ifndef STORMCELLAR_FIRST
     Subcommand{"accuracy", "Measure the error and the time of each way to grid a volume",

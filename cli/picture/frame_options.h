@@ -19,10 +19,10 @@ struct FrameOptions {
     std::vector<std::string> sources;  // files, or a domain
     std::string domain;
     PlaceOption cache;
-    PlaceOption catalog{Directory::catalog, {}, {}};  // for a ppi of a domain
-    GridOptions grid;                                 // for files
+    PlaceOption catalog{Directory::catalog, {}, {}};  // finds the raw volume of a ppi of a domain
+    GridOptions grid;                                 // for a grid made from files
     std::string time;                                 // empty: the latest
-    std::string output;                               // empty: draw nothing, only probe
+    std::string output;                               // empty: no picture, only a probe
     std::string panels;    // moments of a picture with several panels; empty: one panel
     std::string probe;     // "X,Y"
     std::string probe_at;  // the name or coordinates of a place

@@ -48,7 +48,7 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     }
     const auto panels = panel_scenes(options.panels, options.scene_file, options.scene);
     if (!panels) return report_error(panels.error());
-    // Check this first: panels can never meet the requirements of a map's format.
+    // Check this before the requirements of a map's format, because panels can never meet those.
     if (still_format(options.output).encode_picture == nullptr) {
         return report_error(
             {ErrorCode::bad_argument,

@@ -1,4 +1,4 @@
-// cli/picture/frame_report.h -- the report of `frame` at its end.
+// cli/picture/frame_report.h -- the report that `frame` prints at its end.
 #pragma once
 
 #include "cli/picture/frame_options.h"
@@ -13,10 +13,10 @@ struct FrameTiming {
     double render_s = 0, write_s = 0, total_s = 0;
 };
 
-// Returns the seconds for reading and decoding the files; 0 for a grid of the cache.
+// Returns the seconds for reading and decoding the files, or 0 for a grid of the cache.
 [[nodiscard]] double decode_s(const PictureGrid& grid);
 
-// Reports the written file on stderr, or as a document with --json, and the probe.
+// Reports the written file and the probe: as text on stderr, or with --json as a document.
 void report_frame(const FrameOptions& options, const render::Scene& scene,
                   const cache::GridDescription& grid, const FrameTiming& timing,
                   const MaybeProbe& probe);

@@ -17,7 +17,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Returns the latest time at which to look for a grid; none: now.
+// Returns the latest time that the grid may have; none: now.
 Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
     if (options.time.empty()) return std::optional<UtcTime>{};
     const auto time = parse_utc(options.time, now_utc());
@@ -25,8 +25,8 @@ Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
     return std::optional{*time};
 }
 
-// Returns the newest grid of the domain at or before the time, of this moment or of any; none if
-// there is no such grid.
+// Returns the newest grid of the domain at or before the time: a grid of this moment, or of any if
+// none is given. Returns none if there is no such grid.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    std::optional<level2::Moment> moment) {
@@ -71,7 +71,7 @@ Result<cache::StoreReader> open_store(FrameOptions& options) {
     return store;
 }
 
-// Returns the grid; none, after a report, if no grid matched.
+// Returns the grid. If no grid matched, reports that and returns none.
 Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
     if (Status none = refuse_grid_options(options); !none) return pass_on(none);
     const auto store = open_store(options);
@@ -87,8 +87,8 @@ Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Mo
     return std::optional{std::move(*grid)};
 }
 
-// Reads the sweep from the raw volume of the newest grid of any moment. Returns none, after a
-// report, if there is no grid.
+// Returns the sweep, read from the raw volume of the domain's newest grid of any moment. If there
+// is no grid, reports that and returns none.
 Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const render::Scene& scene) {
     const auto store = open_store(options);
     if (!store) return pass_on(store);

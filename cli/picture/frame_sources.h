@@ -16,13 +16,13 @@
 
 namespace stormcellar::cli {
 
-// Returns the grid of the scene, and sets its domain in the options. Returns none, after a report,
-// if the cache has no such grid. Errors: bad_argument for words and options that do not fit each
+// Returns the grid of the scene, and sets its domain in the options. If the cache has no such grid,
+// reports that and returns none. Errors: bad_argument for words and options that do not fit each
 // other, and those of PictureGrid's functions.
 [[nodiscard]] Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
                                                                const render::Scene& scene);
-// Returns the grids of several moments at one time, in the order of the panels; an empty list,
-// after a report, if the cache does not have all of them.
+// Returns the grids of several moments at one time, in the order of the panels. If the cache does
+// not have all of them, reports that and returns an empty list.
 [[nodiscard]] Result<std::vector<PictureGrid>> grids_of_panels(
     FrameOptions& options, const std::vector<PanelScene>& panels);
 

@@ -11,7 +11,7 @@ namespace stormcellar::cli {
 
 namespace {
 
-// Returns the moments of which the domain has grids at any time.
+// Returns the moments that the grids of the domain have, at any time.
 std::vector<std::string_view> moments_kept(const cache::StoreReader& store,
                                            const std::string& domain) {
     std::vector<std::string_view> kept;

@@ -8,9 +8,9 @@
 
 namespace stormcellar::cli {
 
-// Reports on stderr that no grid of the moment matched, and which domains exist or which moments
-// the domain has. Returns the exit status. `when` is empty or has the form " at or before
-// 2005-08-22".
+// Reports on stderr that no grid of the moment matched. Names the domains that exist, or the
+// moments that the domain has. `when` is empty or a text such as " at or before 2005-08-22".
+// Returns the exit status.
 int report_no_grid(const cache::StoreReader& store, const std::string& domain,
                    level2::Moment moment, const std::string& when);
 

@@ -26,7 +26,7 @@ struct PictureGrid::Made {
 
 struct PictureGrid::Swept {
     std::string name;
-    SweptVolume volume;  // holds the sweep
+    SweptVolume volume;  // has the sweep's gates
     PlacedSweep placed;
 };
 

@@ -21,24 +21,25 @@
 
 namespace stormcellar::cli {
 
-// Adds the options for a grid that is made for a picture, without the options of the picture.
+// Adds the options for a grid that is made for a picture. Does not add the options of the picture
+// itself.
 void add_picture_grid_options(CLI::App& app, GridOptions& options);
 // Returns true if one of these options was typed. They make no sense for a grid of the cache.
 [[nodiscard]] bool has_picture_grid_options(const GridOptions& options);
 
-// Gives the options for the grid the moment of a scene, how it is dealiased, and its storm motion.
+// Copies into the grid's options the scene's moment, how it is dealiased, and its storm motion.
 void take_moment(const render::SceneOptions& scene, GridOptions& grid);
 
 class PictureGrid {
   public:
     // Opens a grid of the cache. Errors: those of GridFile::open().
     [[nodiscard]] static Result<PictureGrid> open(const std::filesystem::path& file);
-    // Decodes the files and grids their moment, as `stormcellar grid` does. The options give the
-    // files, the moment, the place of the grid and the number of threads. Errors name the file or
-    // the option.
+    // Decodes the files and makes the grid of their moment, as `stormcellar grid` does. The options
+    // give the files, the moment, the place of the grid and the number of threads. Errors name the
+    // file or the option.
     [[nodiscard]] static Result<PictureGrid> make(GridOptions options);
-    // Decodes the files once and grids several moments, "REF,VEL". Returns a grid for each, in
-    // their order. The first grid owns the volumes.
+    // Decodes the files once and makes a grid of each moment of a list such as "REF,VEL". Returns
+    // the grids in the order of the list. The first grid owns the volumes.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
@@ -52,12 +53,12 @@ class PictureGrid {
     [[nodiscard]] bool has_grid() const { return stored_ != nullptr || made_ != nullptr; }
     [[nodiscard]] grid::BrickView view() const;  // valid as long as this object lives
     [[nodiscard]] const cache::GridDescription& description() const;
-    // Returns the domain; for files, the station, or a mosaic's stations joined by "+".
+    // Returns the name of the domain. For files, returns the station, or a mosaic's stations joined
+    // by "+".
     [[nodiscard]] const std::string& name() const;
-    // Returns the decoded volumes of the grid; empty for a grid of the cache.
+    // Returns the decoded volumes that the grid is from; empty for a grid of the cache.
     [[nodiscard]] const std::vector<SourceVolume>& volumes() const;
-    // Checks that a file of the cache was not truncated. Call check_whole() after the view was
-    // used.
+    // Checks that the grid's file in the cache was not truncated. Call it after using the view.
     [[nodiscard]] Status check_whole() const;
 
   private:

@@ -25,8 +25,8 @@ Result<grid::BrickGrid> bricks_for(const SourceVolume& source, const GridRequest
     return grid::BrickGrid::from(*grid, grid::default_quantization(request.moment));
 }
 
-// Runs the ladder without light, and with all kinds of light for the steps of the light. The
-// picture has the default colors and view of `frame`.
+// Measures the ladder of a picture without light, and then the steps of the light for a picture
+// with all kinds of light. The picture has the default colors and view of `frame`.
 Result<std::vector<accuracy::LadderRow>> run_both(const grid::BrickView& view,
                                                   const GridRequest& request) {
     render::Scene scene;

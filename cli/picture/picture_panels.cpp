@@ -16,7 +16,7 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
     return {};
 }
 
-// Leaves out options of derived moments that these moments do not use.
+// Removes the options of derived moments that none of these moments uses.
 void keep_used(GridOptions& options, const std::vector<level2::Moment>& moments) {
     const bool has_derived = std::ranges::any_of(
         moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });

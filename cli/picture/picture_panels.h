@@ -22,22 +22,23 @@ namespace stormcellar::cli {
 
 using render::PanelScene;
 
-// Returns the panels of a list of moments. Errors: bad_argument for an unknown or repeated moment,
-// for a section, and if --moment or --colors is also given; those of scene_with().
+// Returns the panels for a list of moments. Errors: bad_argument for an unknown or repeated moment,
+// for a product that is a section, and if --moment or --colors is also given; those of
+// scene_with().
 [[nodiscard]] Result<std::vector<PanelScene>> panel_scenes(const std::string& list,
                                                            const SceneFile& file,
                                                            const SceneOptions& options);
 
-// Returns the grids of one time in the order of the panels: the newest time, at or before `until`,
-// at which the cache has every moment. Returns none, after a report, if there is no such time.
+// Returns the grids of one time in the order of the panels. Takes the newest time, at or before
+// `until`, at which the cache has every moment. If there is none, reports that and returns none.
 // Errors: those of PictureGrid::open().
 [[nodiscard]] Result<std::vector<PictureGrid>> stored_panels(const cache::StoreReader& store,
                                                              const std::string& domain,
                                                              const std::vector<PanelScene>& panels,
                                                              std::optional<UtcTime> until);
 
-// Decodes the files once and grids the moments of the panels, in their order. For a ppi it takes
-// the sweep of each moment.
+// Decodes the files once and makes the grids of the panels' moments, in their order. For a ppi,
+// takes the sweep of each moment instead.
 [[nodiscard]] Result<std::vector<PictureGrid>> gridded_panels(
     GridOptions options, const std::vector<PanelScene>& panels);
 

@@ -47,13 +47,14 @@ bool chooses_slices(const std::string& effect) {
     return effect.starts_with("slices_");
 }
 
-// Returns true if no requested effect and no tolerance chooses the number of slices.
+// Returns true if the number of slices stays as it is, because no requested effect and no tolerance
+// chooses it.
 bool keeps_slices(const PicturePlanOptions& options) {
     return options.tolerance.empty() &&
            std::none_of(options.effects.begin(), options.effects.end(), chooses_slices);
 }
 
-// Returns the default choice with the typed settings applied.
+// Returns the default choice, changed by the settings that were typed.
 render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scene& scene) {
     accuracy::Choice choice = render::rungs_of(chain, choice_of(scene));
     for (std::size_t i = 0; i < chain.steps.size(); ++i) {
@@ -63,7 +64,8 @@ render::VolumeChoice by_default(const accuracy::Chain& chain, const render::Scen
     return render::volume_choice(chain, choice);
 }
 
-// Describes the error relative to the chain's exact form, for the grid of the plan.
+// Describes the plan's error, relative to the most exact picture that the chain can make of this
+// grid.
 std::string error_text(const accuracy::Plan& plan) {
     std::string text = plan.budget.bounds_errors()
                            ? fmt::format("tolerance {}; ", accuracy::format_budget(plan.budget))
@@ -76,8 +78,8 @@ std::string error_text(const accuracy::Plan& plan) {
     return fmt::format("{} ({})", text, plan.description);
 }
 
-// Handles a plan for a product other than a volume. Ignores the plan of a scene file whose volume
-// was replaced by --product. Returns an error for any other plan.
+// Handles a plan for a product other than a volume. If --product replaced the volume of a scene
+// file, ignores the file's plan. Returns an error for any other plan.
 Result<std::string> without_plan(const PicturePlanOptions& options, render::Product product) {
     if (!options.is_scenes()) {
         return fail(

@@ -14,7 +14,7 @@
 
 namespace stormcellar::cli {
 
-// The [plan] of a scene file, and whether the file's picture is a volume.
+// The [plan] of a scene file, and whether the file draws a volume.
 struct ScenePlan {
     std::string file;
     std::string tolerance;
@@ -28,7 +28,7 @@ struct PicturePlanOptions {
     std::vector<std::string> effects;
     bool tolerance_typed = false, effects_typed = false;
     bool explain = false;
-    std::optional<ScenePlan> scene;  // none: no file was given
+    std::optional<ScenePlan> scene;  // none: no scene file was given
 
     [[nodiscard]] bool asked() const { return explain || !tolerance.empty() || !effects.empty(); }
     // Returns true if the options are exactly the [plan] of the scene file.
@@ -39,18 +39,18 @@ struct PicturePlanOptions {
 
 void add_picture_plan_options(CLI::App& app, PicturePlanOptions& options);
 
-// Resolves a conflict between a number of slices and a plan that chooses it (a tolerance, or an
-// effect slices_...). Drops options of a scene file that conflict with typed options. Errors:
+// Resolves a conflict between a number of slices and a plan that chooses this number (a tolerance,
+// or an effect slices_...). A typed option wins over an option of a scene file. Errors:
 // bad_argument, naming both, if both were typed or both are in the file.
 [[nodiscard]] Result<PicturePlanOptions> plan_beside_slices(const PicturePlanOptions& plan,
                                                             const SceneOptions& scene);
 
 // Plans for this grid and sets the scene's slices, integration and rays. Keeps the number of slices
 // unless a tolerance or an effect chooses it. Prints the plan if requested: to stderr with `json`,
-// else to stdout. Returns one line about the expected error of the picture. Does nothing and
-// returns an empty line if nothing was requested. A plan of the scene file is ignored if a product
-// other than a volume was typed. Errors: bad_argument for invalid options, or a product that is not
-// a volume; not_found, naming the best plan, if none meets the tolerance.
+// else to stdout. Returns one line about the expected error of the picture. If no plan was
+// requested, does nothing and returns an empty line; this includes the plan of a scene file if a
+// product other than a volume was typed. Errors: bad_argument for invalid options, or for a product
+// that is not a volume; not_found, naming the best plan, if no plan meets the tolerance.
 [[nodiscard]] Result<std::string> plan_picture(const grid::BrickView& view,
                                                const render::FrameFacts& facts,
                                                const PicturePlanOptions& options, bool json,

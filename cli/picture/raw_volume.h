@@ -1,5 +1,5 @@
 // cli/picture/raw_volume.h -- finds the raw volume of a grid through the catalog. A ppi of a domain
-// is drawn from it, because the cache holds only grids.
+// is drawn from the raw volume, because the cache holds only grids.
 //
 // Threads   One thread at a time; catalog and cache are only read.
 // Errors    See each function.
@@ -18,16 +18,16 @@
 
 namespace stormcellar::cli {
 
-// A volume from the catalog, which may still be growing.
+// A raw volume that the catalog has. It may still be growing.
 struct RawVolume {
     std::string file;
-    UtcTime start;  // of the volume; the file may hold others
+    UtcTime start;  // of the volume; the file may hold others, too
     std::vector<std::byte> bytes;
     std::vector<std::string> notes;  // remarks, such as missing chunks
 };
 
-// Returns one grid for each time at which the domain has a grid of any moment, ascending. Errors:
-// those of the cache.
+// Returns a grid for each time at which the domain has one, of whatever moment, in ascending order.
+// Errors: those of the cache.
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> grids_of_any_moment(
     const cache::StoreReader& store, const std::string& domain, std::optional<UtcTime> from,
     std::optional<UtcTime> to);
@@ -38,8 +38,8 @@ struct RawVolume {
                                               const std::string& domain,
                                               const cache::GridDescription& grid);
 
-// Reads the volume of a station that starts at this time. If several files have it, reads it from
-// `file`. Errors: not_found and those of reading, as in raw_volume_of().
+// Reads the volume of a station that starts at this time. If several files have this volume, reads
+// it from `file`. Errors: not_found and those of reading, as in raw_volume_of().
 [[nodiscard]] Result<RawVolume> raw_volume_at(const catalog::CatalogReader& catalog,
                                               const std::string& station, UtcTime start,
                                               const std::filesystem::path& file);

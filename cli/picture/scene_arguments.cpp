@@ -22,12 +22,12 @@ using render::PictureSettings;
 using render::TextValue;
 using render::WholeValue;
 
-// Keeps the first problem, because only one is reported.
+// Keeps only the first problem, because only one is reported.
 void note(SceneOptions& options, const Status& status) {
     if (!status && !options.problem) options.problem = status.error();
 }
 
-// Adds a row of the table as an option.
+// Adds an option to the command line for a row of the table of options.
 struct ValueAdder {
     CLI::App& app;
     std::string name;
@@ -41,7 +41,7 @@ struct ValueAdder {
     CLI::Option* operator()(const WholeValue& value) const {
         int& field = *value.field(to);
         CLI::Option* option = app.add_option(name, field, help);
-        // A default out of range means that nothing was given.
+        // A default that is out of range stands for "not given", so help shows no default.
         if (is_within<double>(field, value.range.least, value.range.most)) {
             option->capture_default_str();
         }
@@ -57,7 +57,7 @@ struct ValueAdder {
         const double unit = value.unit;
         CLI::Option* option = app.add_option_function<double>(
             name, [field, unit](const double& number) { *field = number * unit; }, help);
-        // A default out of range means that nothing was given.
+        // A default that is out of range stands for "not given", so help shows no default.
         const double usual = *field / unit;
         if (value.or_zero || is_within(usual, value.range.least, value.range.most)) {
             option->default_str(fmt::format("{}", usual));
@@ -82,7 +82,7 @@ struct ValueAdder {
         return option->default_str(value.get(to));
     }
 
-    // `value` is part of the static table, so the function may refer to it.
+    // The lambda may keep a reference to `value`, because it is part of the static table.
     template <class Value>
     [[nodiscard]] std::function<void(const std::string&)> taker(const Value& value) const {
         return [&value, option = name, settings = to](const std::string& text) {

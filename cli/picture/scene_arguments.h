@@ -9,7 +9,7 @@
 
 namespace stormcellar::cli {
 
-// The room render/options defines the options of a picture.
+// The table of the options of a picture is in render/options.
 using render::frame_facts_of;
 using render::LoopChoices;
 using render::numbers_of;
@@ -19,7 +19,8 @@ using render::SceneOptions;
 // Adds the options of product, colors, camera and labels to a subcommand, and --threads. `options`
 // must outlive the parse.
 void add_scene_options(CLI::App& app, SceneOptions& options);
-// Adds the options that only `loop` has: the rows of [loop]. Both arguments must outlive the parse.
+// Adds the options that only `loop` has, which are the rows of [loop]. Both arguments must outlive
+// the parse.
 void add_loop_settings(CLI::App& app, SceneOptions& options, LoopChoices& loop);
 
 }  // namespace stormcellar::cli

@@ -44,7 +44,7 @@ Status status_of(const Result<T>& result) {
     return {};
 }
 
-// A key of a scene file, and the settings that it belongs to.
+// A key of a scene file, and the object that the key's value changes.
 struct Place {
     TomlTable& table;
     std::string_view key;
@@ -54,8 +54,8 @@ struct Place {
     void complain(std::string_view why) const { table.complain(key, why); }
 };
 
-// Reads a text. Complains about an empty text, or a text in which `problem` finds an error, and
-// then sets nothing.
+// Reads a text. Sets nothing if the text is empty or `problem` finds an error in it, and then notes
+// a complaint.
 template <class Problem>
 void read_text(TomlTable& table, std::string_view key, std::string& value, Problem problem) {
     const auto text = table.text(key);
@@ -124,8 +124,8 @@ void read_value(const NamesValue& value, const Place& at) {
     if (!known) at.complain(known.error().message);
 }
 
-// The sections of a file. Each has one TomlTable, which notes the keys that were read, so that
-// unknown keys are found.
+// The sections of a file. Each has one TomlTable, which remembers the keys that were read and so
+// finds unknown keys.
 class Sections {
   public:
     explicit Sections(TomlTable root) : root_(root) {}
@@ -189,7 +189,7 @@ void read_plan(TomlTable& plan, PicturePlanOptions& options) {
     }
 }
 
-// Reads the keys that are also in [camera] into `key`. Returns false if one of them is refused.
+// Reads into `key` the keys that [camera] has, too. Returns false if one of them is refused.
 bool read_camera(TomlTable& table, const std::filesystem::path& directory, render::CameraKey& key) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     SceneOptions read;
@@ -260,7 +260,7 @@ void read_loop(TomlTable& table, const std::filesystem::path& directory, LoopSet
     }
 }
 
-// Refuses the project's other .toml files, each recognized by a section that only it has.
+// Refuses other .toml files of the project. A section that only such a file has identifies it.
 Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     constexpr std::array<std::pair<const char*, const char*>, 3> others{
         std::pair{"radar", "this is a simulated scene for stormcellar synth"},
@@ -269,7 +269,7 @@ Status check_kind(const TomlTable& root, const std::filesystem::path& file) {
     const bool is_ours = std::any_of(sections.begin(), sections.end(),
                                      [&](const char* name) { return root.has(name); });
     for (const auto& [section, kind] : others) {
-        // the configuration has [[loop]] too
+        // A section of our own does not rule out a configuration, which may have [[loop]], too.
         if (!root.has(section) || (is_ours && section != std::string_view("paths"))) continue;
         return fail(ErrorCode::bad_argument, "{}: {}; a picture scene has [{}]", file.native(),
                     kind, fmt::join(sections, "], ["));
@@ -331,7 +331,8 @@ void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, Picture
             plan.scene = ScenePlan{path, plan.tolerance, plan.effects, scene.product == "volume"};
             if (const auto alone = scene_of(scene); !alone) file.alone = alone.error();
         }
-        // Report an error in the file before missing options that the file might have set.
+        // Report an error in the file before reporting a missing option, because the file might
+        // have set that option.
         if (file.error || (loop != nullptr && !loop->domain.empty())) need_no_more(app, "--domain");
         if (file.error || (loop != nullptr && !loop->outputs.empty())) {
             need_no_more(app, "--output");

@@ -1,15 +1,16 @@
 // cli/picture/scene_file.h -- `--scene FILE.toml`: reads everything that defines a picture or a
 // loop from a file.
 //
-// The file has the sections [picture], [camera], [light], [volume], [labels], [plan] and [loop];
-// each key is named after its option (docs/rendering.md lists them all). A key that is absent
-// changes nothing. Relative paths (color tables, outputs) start at the directory of the file.
-// scene_of() checks settings that only make sense together (a section and its line), after the
-// options of the command line were added; scene_with() then names the file.
+// The file has the sections [picture], [camera], [light], [volume], [labels], [plan] and [loop].
+// Each key is named after its option (docs/rendering.md lists them all). A key that is absent
+// changes nothing. Relative paths (color tables, outputs) start at the directory of the file. Some
+// settings only make sense together, such as a section and its line. scene_of() checks these after
+// the options of the command line were added; scene_with() then adds the name of the file to the
+// error.
 //
 // Threads   Pure: may be called from any thread.
 // Errors    not_found, io and others of the file; bad_argument, "FILE:LINE: [section] key: why",
-//           for its contents, unknown keys included.
+//           for its contents, including unknown keys.
 #pragma once
 
 #include <filesystem>
@@ -30,24 +31,24 @@ namespace stormcellar::cli {
 struct LoopSettings : LoopChoices {
     std::string domain;
     TimeRangeOptions range;
-    std::vector<render::CameraKey> camera;  // keys of its path; empty: it has none
+    std::vector<render::CameraKey> camera;  // keys of the loop's camera path; empty: no path
     std::vector<std::string> outputs;
 };
 
-// Reads the settings of the file; sets nothing if the file has an error.
+// Reads the settings of the file. Sets nothing if the file has an error.
 [[nodiscard]] Status read_scene_file(const std::filesystem::path& file, SceneOptions& scene,
                                      PicturePlanOptions& plan, LoopSettings& loop);
 
-// The option --scene. `error` is an error of the file, for the command to report. `alone` is an
-// error of the file that a typed option may correct.
+// The option --scene. `error` is an error of the file, which the command must report. `alone` is an
+// error that a typed option may correct.
 struct SceneFile {
     std::string path;
     std::optional<Error> error;
     std::optional<Error> alone;
 };
 
-// Returns the scene of scene_of(). If a file was given, the message of an error is "FILE: why" if
-// the file alone causes the error, or "why (beside --scene FILE)" if options may have caused it.
+// Returns the scene that scene_of() makes. If a file was given, an error's message is "FILE: why"
+// if the file alone causes the error, or "why (beside --scene FILE)" if options may have caused it.
 [[nodiscard]] Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options);
 
 // Adds --scene to a subcommand. It must be the first option added, so that the other options are

@@ -9,7 +9,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Returns true for "-", and for "-.webp", which is standard output in the format of that ending.
+// Returns true for "-" (a PNG on standard output), and for "-" with an ending such as "-.webp".
 bool is_piped(const std::string& output) {
     return is_stdout(output) || output.starts_with("-.");
 }

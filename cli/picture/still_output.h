@@ -1,7 +1,7 @@
 // cli/picture/still_output.h -- the output of `frame`: its format (stormcellar/render/still.h), and
 // how it is written.
 //
-// "-" is a PNG on standard output; "-.webp" is WebP on standard output, and so on.
+// "-" means a PNG on standard output; "-.webp" means WebP on standard output, and so on.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -15,16 +15,16 @@
 
 namespace stormcellar::cli {
 
-// Checks, before long work, that the output can be written, that its format can show the product,
-// and that `json` does not also use standard output. Errors: bad_argument, and those of
+// Checks, before the long work begins, that the output can be written, that its format can show the
+// product, and that `json` does not use standard output as well. Errors: bad_argument, and those of
 // check_target().
 [[nodiscard]] Status check_still_output(const std::string& output, render::Product product,
                                         bool json);
 
-// Returns the format of an output that was checked.
+// Returns the format of an output that check_still_output() has accepted.
 [[nodiscard]] const render::StillFormat& still_format(const std::string& output);
 
-// Writes the whole output, which is in memory, to its place. Errors: those of writing.
+// Writes a complete output, which is in memory, to its place. Errors: those of writing.
 [[nodiscard]] Status write_still(const std::string& output, std::span<const std::byte> bytes);
 
 // Returns the help text for the formats of -o.

@@ -27,7 +27,7 @@ struct CacheOptions {
     bool json = false;
 };
 
-// Returns every grid that the options select, in one domain or in all domains, of any moment.
+// Returns the grids that the options select, in one domain or in all domains, of any moment.
 Result<std::vector<StoreEntry>> matching(const CacheOptions& options) {
     const auto range = parse_time_range(options.times);
     if (!range) return pass_on(range);
@@ -77,7 +77,8 @@ struct DomainTotal {
     std::uint64_t pinned_bytes = 0;
 };
 
-// The newest audited grid of a domain and moment, and its agreement with its gates.
+// The newest grid of a domain and moment, with the result of its audit: how well it agrees with the
+// gates of its volume.
 struct AuditedGrid {
     StoreEntry entry;
     std::vector<grid::AuditRow> rows;
@@ -181,7 +182,7 @@ int run_verify(const CacheOptions& options, const std::vector<StoreEntry>& entri
         progress.show(i);
         const auto file = cache::GridFile::open(entries[i].path);
         const Status whole = file ? file->verify() : Status(pass_on(file));
-        // A daemon may have evicted the grid since it was listed, which is not damage.
+        // If the grid is gone, a daemon may have evicted it since it was listed. That is no damage.
         const bool is_gone = !whole && whole.error().code == ErrorCode::not_found;
         checked += is_gone ? 0 : 1;
         if (whole || is_gone) continue;

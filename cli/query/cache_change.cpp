@@ -117,7 +117,8 @@ struct PinOptions {
     bool json = false;
 };
 
-// Pins or unpins every grid of the domain in the range, except those evicted in the meantime.
+// Pins or unpins every grid of the domain in the range. Skips grids that were evicted in the
+// meantime.
 int run_pin(const PinOptions& options, bool pin) {
     const auto range = parse_time_range(options.times);
     if (!range) return report_error(range.error());
@@ -128,7 +129,7 @@ int run_pin(const PinOptions& options, bool pin) {
         const auto entries = store->list(options.domain, moment, range->from, range->to);
         if (!entries) return report_error(entries.error());
         for (const StoreEntry& entry : *entries) {
-            // false if the grid to unpin was not pinned
+            // Unpinning gives false if the grid was not pinned.
             const Result<bool> done =
                 pin ? cache::pin_grid(real_file_system(), entry.path).map([] { return true; })
                     : cache::unpin_grid(real_file_system(), entry.path);

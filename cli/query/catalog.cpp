@@ -31,7 +31,8 @@ struct CatalogOptions {
     TimeRangeOptions times;
     bool rejected = false;
     bool json = false;
-    std::string stations;  // the known stations; empty: set_up_catalog() sets the default
+    // Stations that count as known; empty: the default, which set_up_catalog() sets.
+    std::string stations;
     bool clear_unknown = false;
     GetOptions get;
 };
@@ -87,7 +88,8 @@ int print_entries(const std::vector<CatalogEntry>& entries, bool json) {
     return entries.empty() ? report_nothing_matched() : exit_done;
 }
 
-// Reports databases that could not be read. A bad database affects only its own station.
+// Reports databases that could not be read. A database holds one station, so a bad one affects only
+// its own station.
 int report_troubles(const CatalogReader& catalog, int status) {
     for (const catalog::Trouble& trouble : catalog.troubles())
         status = report_error(trouble.error);
@@ -122,14 +124,14 @@ int run_stations(const CatalogOptions& options) {
     return stations->empty() && status == exit_done ? report_nothing_matched() : status;
 }
 
-// Returns true for every chunk but the first of a volume, because only the row of the first chunk
-// has the volume.
+// Returns true for the later chunks of a volume. The catalog describes the volume only in the row
+// of its first chunk.
 bool is_part_of_a_volume(const CatalogEntry& entry) {
     return !entry.volume.start_time && entry.state != catalog::FileState::rejected &&
            level2::parse_chunk_name(entry.path.filename().native()).has_value();
 }
 
-// Returns the entries that the options select. They belong to one station, or to all stations whose
+// Returns the entries that the options select: entries of one station, or of all stations whose
 // databases can be read.
 Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
                                            const CatalogReader& catalog) {
@@ -153,8 +155,8 @@ Result<std::vector<CatalogEntry>> matching(const CatalogOptions& options,
     return all;
 }
 
-// Reports an error. For a station that the catalog does not know, nothing matched; a missing
-// catalog is a failure.
+// Reports an error. If the catalog does not know the station, the status says that nothing matched.
+// If the catalog is missing, the command has failed.
 int report_query_error(const Error& error, const CatalogOptions& options) {
     const int status = report_error(error);
     const bool unknown =
@@ -174,8 +176,8 @@ int run_list(const CatalogOptions& options) {
     return print_entries(*entries, options.json);
 }
 
-// Returns true if the file is gone. A file that may not be examined is not gone. A member of an
-// archive exists if its archive does.
+// Returns true if the file does not exist. A file that may not be examined counts as existing. A
+// member of an archive exists if its archive does.
 bool is_gone(const fs::path& path) {
     std::error_code error;
     const bool is_there = fs::exists(path, error) || archive::member_path_of(path);
@@ -210,7 +212,7 @@ int run_get(const CatalogOptions& options) {
     return get_files(*opened, *entries, options.get);
 }
 
-// Finds the drop directory if it was not typed.
+// Sets the drop directory from the configuration if it was not typed.
 Status find_drop(CatalogOptions& options) {
     if (!options.drop.empty()) return {};
     const auto places = service_places(options.place.config);
@@ -289,7 +291,7 @@ Run set_up_catalog(CLI::App& command) {
         one->add_flag("--json", options->json, "Print one JSON document");
 
     return [=] {
-        // A user who types both directories makes a private catalog, not the service's.
+        // If both directories were typed, the catalog belongs to the user and not to the service.
         const bool is_own =
             rebuild->parsed() && !options->place.directory.empty() && !options->drop.empty();
         if (options->stations.empty()) options->stations = is_own ? "any" : "known";

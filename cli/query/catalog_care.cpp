@@ -30,8 +30,8 @@ using catalog::Repair;
 using catalog::StationCheck;
 using catalog::Trouble;
 
-// Returns the rule that --stations describes. For "any", the rule admits every station that has a
-// database.
+// Returns the rule for known stations that --stations describes. For "any", the rule accepts every
+// station that has a database.
 Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     if (options.stations == "known") return std::make_shared<StationRule>();
     if (options.stations == "any") {
@@ -57,7 +57,7 @@ Result<std::shared_ptr<StationRule>> rule_of(const CareOptions& options) {
     return std::make_shared<StationRule>(StationRule::listed(listed));
 }
 
-// Returns the state directory, which a daemon locks; its catalog is state/catalog.
+// Returns the state directory, which a running daemon locks. The catalog is in state/catalog.
 fs::path state_of(const std::string& catalog) {
     fs::path directory = fs::absolute(catalog).lexically_normal();
     if (!directory.has_filename()) directory = directory.parent_path();
@@ -141,7 +141,7 @@ void print_cleared(const ClearReport& report) {
     }
 }
 
-// Removes databases of unknown stations while no other process writes the catalog.
+// Removes the databases of unknown stations. Fails if another process writes the catalog.
 Result<ClearReport> clear_unknown(const CareOptions& options, const StationRule& stations) {
     const auto lock = pipeline::InstanceLock::acquire(state_of(options.directory));
     if (!lock) {

@@ -7,17 +7,18 @@ namespace stormcellar::cli {
 
 struct CareOptions {
     std::string directory;  // state/catalog
-    std::string drop;       // for rebuild
+    std::string drop;       // drop directory, for rebuild
     std::string station;    // empty: all
-    // The known stations: "known" (the table), "any", or a list of names and "known".
+    // The stations that count as known: "known" (the station table), "any", or a list of names and
+    // "known".
     std::string stations = "known";
-    bool clear_unknown = false;  // for check: first remove the databases of unknown stations
+    bool clear_unknown = false;  // for check: first removes the databases of unknown stations
     bool json = false;
 };
 
 // Check or rebuild the catalog, print the findings, and return the exit status. The status is 0 if
-// nothing is wrong, or nothing is left wrong after the rebuild. Lost rows are reported but are not
-// a failure.
+// nothing is wrong, or if a rebuild has repaired everything. Lost rows are reported but are not a
+// failure.
 int check_catalog(const CareOptions& options);
 int rebuild_catalog(const CareOptions& options);
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using catalog::CatalogEntry;
 
-// A file of the archive, and the start times of its volumes that matched.
+// A file of the archive, with the start times of those volumes in it that matched.
 struct MatchedFile {
     CatalogEntry entry;
     std::vector<std::optional<UtcTime>> starts;
@@ -38,15 +38,15 @@ std::vector<MatchedFile> files_of(const std::vector<CatalogEntry>& entries) {
     return files;
 }
 
-// The files written in this run, so that it never replaces its own output.
+// The paths written in this run. They keep the run from replacing its own output.
 class Targets {
   public:
     explicit Targets(const GetOptions& options) : options_(options) {}
 
-    // Returns the path of this name in the output directory, if it may be written.
+    // Returns the path of this name in the output directory. Fails if that path may not be written.
     Result<fs::path> claim(const std::string& name) {
         fs::path to = fs::path{options_.output} / name;
-        // If two files have one name, the second gets a number.
+        // If two files have the same name, the second gets a number.
         for (int number = 2; !taken_.insert(to).second; ++number) {
             const fs::path plain{name};
             to = fs::path{options_.output} /
@@ -64,14 +64,14 @@ class Targets {
     std::set<fs::path> taken_;
 };
 
-// Returns the usual archive name of a volume's file: "KLOT20220317_000842".
+// Returns the usual archive name of a volume's file, such as "KLOT20220317_000842".
 std::string name_of_file(const CatalogEntry& entry) {
     if (!pipeline::is_of_chunks(entry)) {
         // A member of an archive keeps its own name.
         const auto member = archive::member_path_of(entry.path);
         return (member ? fs::path{member->member} : entry.path).filename().string();
     }
-    // format_utc() gives 2022-03-17T00:08:42Z
+    // format_utc() returns a time such as 2022-03-17T00:08:42Z.
     const std::string time = format_utc(*entry.volume.start_time);
     std::string name = entry.station;
     for (const char letter : time.substr(0, 19)) {
@@ -81,7 +81,7 @@ std::string name_of_file(const CatalogEntry& entry) {
     return name;
 }
 
-// Reads the raw file of an entry. Prints remarks on stderr.
+// Reads the raw file of an entry. Prints notes about it on stderr.
 Result<std::vector<std::byte>> read_raw(const catalog::CatalogReader& catalog,
                                         const CatalogEntry& entry) {
     auto volume = pipeline::read_cataloged_volume(catalog, entry);
@@ -103,7 +103,8 @@ Status copy_raw(const catalog::CatalogReader& catalog, const MatchedFile& file, 
     return {};
 }
 
-// Returns "KTLX19990503_235621" for "KTLX19990503_235621.gz".
+// Returns the name without the ending of a compression: "KTLX19990503_235621" for
+// "KTLX19990503_235621.gz".
 std::string name_without_compression(const fs::path& path) {
     const std::string extension = path.extension().string();
     const bool compressed = extension == ".gz" || extension == ".bz2" || extension == ".Z";
@@ -125,7 +126,7 @@ Result<level2::Decoded> decode_raw(const catalog::CatalogReader& catalog,
 }
 
 // Returns the numbers of the file's volumes that matched. If the file has a single volume, returns
-// that.
+// its number.
 std::vector<std::size_t> matched_volumes(const MatchedFile& file,
                                          const std::vector<level2::Volume>& volumes) {
     std::vector<std::size_t> matched;
@@ -177,7 +178,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     return written ? output->finish() : written;
 }
 
-// Writes the one file that matched to standard output.
+// Writes a file to standard output. Fails unless exactly one file matched.
 Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<MatchedFile>& files,
                      const GetOptions& options) {
     if (files.size() != 1) {

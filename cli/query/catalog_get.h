@@ -12,13 +12,13 @@ struct GetOptions {
     std::string output;       // a directory, made if it is missing; "-": standard output
     bool force = false;       // replaces existing files
     bool decode = false;      // writes volumes as CfRadial instead of copying files
-    bool own_ranges = false;  // for CfRadial: an axis for each gate geometry
+    bool own_ranges = false;  // in CfRadial, gives each gate geometry its own range axis
 };
 
-// Copies each file once under its own name, or writes each volume as NAME.nc, without the ending of
-// a compression (NAME_volumeN.nc if the file has several). Prints the path of each. Continues after
-// a failure and returns the exit status of the last failure. A file that was replaced since it was
-// cataloged is not copied and counts as a failure.
+// Copies each file once under its own name, or writes each volume as NAME.nc (NAME_volumeN.nc if
+// the file has several). NAME has no ending of a compression. Prints the path of each output. Goes
+// on after a failure, and returns the exit status of the last failure. If a file was replaced since
+// it was cataloged, does not copy it and counts that as a failure.
 [[nodiscard]] int get_files(const catalog::CatalogReader& catalog,
                             const std::vector<catalog::CatalogEntry>& entries,
                             const GetOptions& options);

@@ -70,7 +70,7 @@ Result<std::string> read_answer(const Descriptor& socket, const fs::path& path,
     return fail(ErrorCode::corrupt, "{}: the answer of the daemon is too long", path.native());
 }
 
-// Returns the object in the text; none if it is not a JSON object.
+// Parses the text. Returns none if it is not a JSON object.
 std::optional<nlohmann::json> parse_object(std::string_view text) {
     auto document = nlohmann::json::parse(text, nullptr, false);
     if (!document.is_object()) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<nlohmann::json> read_status_file(const fs::path& file) {
     return parse_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
-// Returns the objects in the status document's list of loops.
+// Returns the entries of the status document's list of loops that are objects.
 std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     std::vector<nlohmann::json> loops;
     const auto all = document.find("loops");
@@ -96,21 +96,21 @@ std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     return loops;
 }
 
-// Returns true if the daemon says that another process keeps its loops.
+// Returns true if the daemon says that another process runs its loops.
 bool are_elsewhere(const nlohmann::json& document) {
     const auto& loops = document.at("loops");
     return loops.contains("elsewhere") && loops["elsewhere"] == true;
 }
 
-// Returns true if the process exists, even if it belongs to a user whose processes we may not
-// signal.
+// Returns true if the process exists, even if it belongs to another user, so that we may not signal
+// it.
 bool is_alive(const nlohmann::json& keeper) {
     const auto pid = keeper.find("pid");
     return pid != keeper.end() && pid->is_number_integer() && pid->get<std::int64_t>() > 0 &&
            (::kill(pid->get<pid_t>(), 0) == 0 || errno != ESRCH);
 }
 
-// Marks the loops as stopped: their process was killed, so its last report is no longer true.
+// Marks the loops as stopped. Their process was killed, so its last report is no longer true.
 void stop_all(nlohmann::json& loops) {
     loops["running"] = 0;
     if (!loops.contains("each") || !loops["each"].is_array()) return;
@@ -118,8 +118,8 @@ void stop_all(nlohmann::json& loops) {
         if (loop.is_object()) loop["running"] = false;
 }
 
-// Adds loops that the daemon knows and the loops' process does not report, for example because it
-// has ended.
+// Adds the configured loops that the document does not list, for example because their process has
+// ended.
 void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json>& configured) {
     nlohmann::json& each = loops["each"];
     if (!each.is_array()) each = nlohmann::json::array();
@@ -132,7 +132,7 @@ void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json
         if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
 }
 
-// Uses another socket if the status file names one.
+// If the status file names another socket, uses that socket.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
     if (!document) return;
@@ -152,7 +152,7 @@ StatusPlaces places_in(const ServicePlaces& service) {
         return places;
     }
     places.sockets = {service.state / socket_name};
-    // The runtime directory is systemd's if the state is in its usual place.
+    // If the state directory is the usual one, the runtime directory is systemd's.
     if (service.state == usual_state) {
         places.sockets.insert(places.sockets.begin(), fs::path{usual_runtime} / socket_name);
     }

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::size_t most_rejected_shown = 10;
 
-// Returns null for a missing member.
+// Returns the member of the object, or null if it is missing.
 const json& at(const json& object, const char* key) {
     static const json nothing;
     if (!object.is_object()) return nothing;
@@ -61,7 +61,7 @@ std::string size_of(const json& object, const char* key) {
     return format_byte_size(count(object, key));
 }
 
-// Returns for example "p50 85 ms, p95 120 ms, max 0.2 s".
+// Returns a text such as "p50 85 ms, p95 120 ms, max 0.2 s".
 std::string summary(const json& latency) {
     return fmt::format("p50 {}, p95 {}, max {}", short_duration(number(latency, "median")),
                        short_duration(number(latency, "p95")),
@@ -114,7 +114,7 @@ std::string cache_line(const json& status) {
                               count(rolling, "evicted"), size_of(rolling, "evicted_bytes"));
 }
 
-// Returns for example "3 rejected (2 corrupt, 1 empty)".
+// Returns a text such as "3 rejected (2 corrupt, 1 empty)".
 std::string with_kinds(const json& status, const char* key, const char* by, Paint paint) {
     std::string line = fmt::format("{} {}", count(status, key), key);
     const json& kinds = at(status, by);
@@ -127,13 +127,14 @@ std::string with_kinds(const json& status, const char* key, const char* by, Pain
     return in_yellow(line + fmt::format(" ({})", fmt::join(each, ", ")), paint);
 }
 
-// Returns how long the next pending file still has to wait, if that is long.
+// Returns a text about how long the next pending file must still wait, or an empty text if the wait
+// is short.
 std::string wait_of(const json& pending) {
     const double wait_s = number(pending, "longest_wait_s").value_or(0);
     return wait_s < 1 ? std::string{} : fmt::format(" (for up to {:.0f} s)", wait_s);
 }
 
-// Returns the number of files that are retried, if there are any.
+// Returns a text with the number of files that are retried, or an empty text if there are none.
 std::string retrying_of(const json& pending, Paint paint) {
     const auto retrying = count(pending, "retrying");
     if (retrying == 0) return {};
@@ -209,8 +210,8 @@ std::string aligned(const std::vector<Row>& rows) {
     return lines;
 }
 
-// Returns the current values of the antenna. If there are none, returns the last values, marked as
-// old.
+// Returns a text with the present values of the antenna. If there are none, returns the last
+// values, marked as old.
 std::string antenna_of(const json& antenna) {
     if (number(antenna, "median")) return short_duration(number(antenna, "median"));
     const auto last = number(antenna, "last");
@@ -285,8 +286,8 @@ std::string rejected_lines(const json& status, Paint paint) {
     return lines;
 }
 
-// Returns, for example, "; kept by process 17: running" if the daemon does not keep the loops
-// itself.
+// Returns a text such as "; kept by process 17: running" if another process than the daemon runs
+// the loops.
 std::string loops_keeper(const json& status, Paint paint) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {

@@ -1,7 +1,7 @@
 // cli/query/status_table.h -- formats the daemon's status as text for people.
 //
-// Members that the document lacks, or has in another form than daemon/status/status_json.h, are
-// shown as "-", so that a newer or older daemon is not an error.
+// If the document lacks a member, or has it in another form than daemon/status/status_json.h, the
+// table shows "-". So a newer or older daemon is not an error.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -16,7 +16,7 @@
 namespace stormcellar::cli {
 
 // Returns several lines, with the stations sorted by name. Ages are counted from `now`. With
-// colors, trouble is red and a warning is yellow; the text is the same.
+// colors, problems are red and warnings are yellow; the text is the same without colors.
 [[nodiscard]] std::string status_table(const nlohmann::json& status, UtcTime now,
                                        Paint paint = Paint::plain);
 

@@ -1,4 +1,5 @@
-// cli/reference/command_guide.h -- the first part of a command's help: examples and usual options.
+// cli/reference/command_guide.h -- the first part of a command's help: examples and the usual
+// options.
 //
 // Thread contract: the table is constant.
 #pragma once
@@ -10,22 +11,22 @@
 namespace stormcellar::cli {
 
 struct CommandExample {
-    std::string_view line;  // as typed
-    std::string_view what;  // a sentence
+    std::string_view line;  // the command line of the example
+    std::string_view what;  // a sentence that says what it does
 };
 
 struct CommandGuide {
     std::string_view command;  // "catalog get"; empty: the program itself
     std::vector<CommandExample> examples;
-    // Usual options, at most ten, in the order of help; other options are only in --help-all. An
-    // empty list makes all options usual.
+    // The usual options, at most ten, in the order of the help. Only --help-all shows the others.
+    // An empty list makes all options usual.
     std::vector<std::string_view> usual = {};
 };
 
 inline constexpr std::size_t most_usual_options = 10;
 
 [[nodiscard]] const std::vector<CommandGuide>& command_guides();
-// Returns null if there is no guide to this command.
+// Returns the guide to this command, or null if there is none.
 [[nodiscard]] const CommandGuide* find_guide(std::string_view command);
 
 }  // namespace stormcellar::cli

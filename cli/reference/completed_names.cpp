@@ -24,8 +24,8 @@ fs::path typed_path(const std::string& text) {
     return fs::path(home) / text.substr(2);
 }
 
-// Returns the value of this option, or an empty text. Bash splits "--cache=x" into "--cache", "="
-// and "x".
+// Returns the value after this option, or an empty text. Bash splits "--cache=x" into the words
+// "--cache", "=" and "x".
 std::string value_behind(std::string_view option, const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (words[i].starts_with(option) && words[i].size() > option.size() &&
@@ -38,7 +38,7 @@ std::string value_behind(std::string_view option, const std::vector<std::string>
     return {};
 }
 
-// Returns a directory of the service; empty if no readable configuration names it.
+// Returns a directory of the service. Returns an empty path if no readable configuration names it.
 fs::path configured(Directory which, const std::vector<std::string>& words) {
     const std::string file = value_behind("--config", words);
     const auto places = service_places(file.empty() ? file : typed_path(file).native());
@@ -83,7 +83,7 @@ std::vector<std::string> completed_names(std::string_view kind,
     std::vector<std::string> names;
     if (kind == "domains") names = domains_of(words);
     if (kind == "stations") names = stations_of(words);
-    // Leave out names that a shell would split.
+    // Leave out names that a shell would split into several words.
     std::erase_if(names, [](const std::string& name) {
         return name.empty() || name.find_first_of(" \t\n\\'\"$`:") != std::string::npos;
     });

@@ -1,13 +1,13 @@
-// cli/reference/completed_names.h -- finds names for the completions of shells that depend on the
-// machine: the domains of a cache and the stations of a catalog or a cache.
+// cli/reference/completed_names.h -- finds the names that a shell offers as completions and that
+// depend on the machine: the domains of a cache, and the stations of a catalog or a cache.
 //
-// The scripts call `stormcellar --complete domains|stations WORD...` with the words typed so far;
-// --help does not show this option. The directories come from --cache and --catalog among these
-// words, else from the configuration that --config or STORMCELLAR_CONFIG names, else from the
+// The completion scripts call `stormcellar --complete domains|stations WORD...` with the words
+// typed so far; --help does not show this option. The directories come from --cache and --catalog
+// among these words, else from the configuration of --config or STORMCELLAR_CONFIG, else from the
 // service's configuration.
 //
 // Threads   One thread at a time.
-// Errors    None. Unreadable sources give no names, since a shell has no place for a message.
+// Errors    None. Unreadable sources give no names, because a completion cannot show a message.
 #pragma once
 
 #include <string>
@@ -16,8 +16,9 @@
 
 namespace stormcellar::cli {
 
-// Returns sorted names, each once. Stations are those of the catalog, else the domains of the cache
-// that are stations, else all stations of the table.
+// Returns the names, sorted, each once. Stations are the stations of the catalog. If there is no
+// catalog, they are the domains of the cache that are stations; without a cache, all stations of
+// the table.
 [[nodiscard]] std::vector<std::string> completed_names(std::string_view kind,
                                                        const std::vector<std::string>& words);
 

@@ -11,7 +11,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Returns a range such as "1 - 1e+06" as a person writes it.
+// Returns a range such as "1 - 1e+06" in words for people.
 std::string range_in_words(const std::string& range) {
     const std::size_t dash = range.find(" - ");
     if (dash == std::string::npos) return range;
@@ -23,13 +23,13 @@ std::string range_in_words(const std::string& range) {
     return fmt::format("{} to {}", number(range.substr(0, dash)), number(range.substr(dash + 3)));
 }
 
-// Returns a word for a type; the parser's names of types are not meant for users.
+// Returns a word for a type, because the parser's own names of types are not meant for users.
 std::string word_of_type(const std::string& type) {
     if (type == "INT" || type == "UINT") return "N";
     return type == "FLOAT" ? "NUMBER" : type;
 }
 
-// Takes the type of a value from the parser's text: "INT:INT in [1 - 10]" or "TEXT:{a,b}".
+// Sets the option's type from the parser's text, such as "INT:INT in [1 - 10]" or "TEXT:{a,b}".
 void take_type(const std::string& type, OptionReference& option) {
     const std::string name = type.substr(0, type.find(':'));
     option.value = word_of_type(name);
@@ -49,7 +49,8 @@ void take_type(const std::string& type, OptionReference& option) {
     }
 }
 
-// Sets the words for a value from the table, whose row may have any name of the option.
+// Sets the words for the option's value from the table. The row of the table may have any name of
+// the option.
 void take_words(const std::string& command, OptionReference& option) {
     std::vector<std::string> names = option.names;
     if (!option.place.empty()) names.push_back(option.place);
@@ -109,7 +110,8 @@ void add_options(const CLI::App& app, const std::string& group_of_all, CommandRe
     }
 }
 
-// Sorts options without a group first, then the options of each group, as in --help.
+// Sorts options as --help shows them: first options without a group, then the options of each
+// group.
 void sort_by_group(std::vector<OptionReference>& options) {
     std::vector<std::string> groups{""};
     for (const OptionReference& option : options) {

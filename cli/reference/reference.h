@@ -1,10 +1,10 @@
-// cli/reference/reference.h -- the options of `stormcellar` as help, a manual page, and completions
-// for shells.
+// cli/reference/reference.h -- describes the options of `stormcellar` as help, as a manual page,
+// and as completions for shells.
 //
-// Each is generated from the parser itself, so they match the program's real options. The build of
-// the package calls `stormcellar --reference man|bash|zsh|fish`, which --help does not show;
-// packaging/man contains the pages around the generated part. Hidden options (with an empty group)
-// are left out. -h,--help and --help-all are not repeated for each command.
+// All of these are generated from the parser itself, so they match the program's real options. The
+// build of the package calls `stormcellar --reference man|bash|zsh|fish`, which --help does not
+// show; packaging/man has the parts of the manual that are not generated. Hidden options (with an
+// empty group) are left out. -h,--help and --help-all are not repeated for each command.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once
@@ -30,12 +30,12 @@ struct OptionReference {
                                        // "FILE...|DOMAIN"
     std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
-    std::vector<std::string> offers;   // usual values, where others are allowed too
-    Kept kept = Kept::files;           // source of values that are not listed
+    std::vector<std::string> offers;   // usual values of an option that accepts others, too
+    Kept kept = Kept::files;           // where to find the values that are not listed
     std::string range;                 // "1 to 1000000"; empty: none
     std::string initial;               // the default; empty: none, or given in the description
     std::string description;
-    std::string group;                   // its heading; empty: none
+    std::string group;                   // heading in the help; empty: none
     std::vector<std::string> not_with;   // options that exclude it
     std::vector<std::string> only_with;  // options that it needs
     bool is_whole = false;               // the value is a whole number
@@ -51,26 +51,27 @@ struct CommandReference {
 };
 
 [[nodiscard]] CommandReference reference_of(const CLI::App& app);
-// Returns the command "catalog get" of the program; null if there is none.
+// Returns the command of this name, such as "catalog get"; null if the program has none.
 [[nodiscard]] const CommandReference* find_command(const CommandReference& program,
                                                    std::string_view name);
 
-// Returns the text about an option in help and manual: its description, range, default, and the
-// options that it needs or excludes. Each is a sentence with its period.
+// Returns the text about an option in help and manual: its description, range and default, and the
+// options that it needs or excludes. Each entry is a sentence with its period.
 [[nodiscard]] std::vector<std::string> sentences_of(const OptionReference& option);
 
 enum class HelpExtent { usual, all };
-// Returns the text of --help or --help-all: at most 80 columns, ends with a line end.
+// Returns the text of --help or --help-all. Lines have at most 80 columns, and the text ends with a
+// line end.
 [[nodiscard]] std::string help_of(const CommandReference& command, HelpExtent extent);
 
-// Returns the manual, with headings and lists of man(7), one heading for each command that can run.
+// Returns the manual in the format of man(7), with a heading for each command that can run.
 [[nodiscard]] std::string manual_of(const CommandReference& program);
 // Return completion scripts, which a user sources or installs where the shell looks for them.
 [[nodiscard]] std::string bash_completion_of(const CommandReference& program);
 [[nodiscard]] std::string zsh_completion_of(const CommandReference& program);
 [[nodiscard]] std::string fish_completion_of(const CommandReference& program);
 
-// Returns the text of this kind: man, bash, zsh or fish; none for any other.
+// Returns the text of this kind (man, bash, zsh or fish), or none for another kind.
 [[nodiscard]] std::optional<std::string> reference_text(const CLI::App& app, std::string_view kind);
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// Writes completions for bash, zsh and fish. Where a value is expected, they offer its allowed or
+// Writes completions for bash, zsh and fish. For the value of an option, they offer the allowed or
 // usual values, files, directories, or the domains and stations that the program finds
 // (completed_names.h).
 #include <algorithm>
@@ -23,7 +23,7 @@ std::vector<const CommandReference*> all_commands(const CommandReference& progra
     return all;
 }
 
-// Returns "get" of "catalog get".
+// Returns the last word of a command's name: "get" for "catalog get".
 std::string last_word(const std::string& name) {
     const std::size_t space = name.rfind(' ');
     return space == std::string::npos ? name : name.substr(space + 1);
@@ -43,7 +43,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
     return text;
 }
 
-// Returns the start of a description, for one line of a menu.
+// Returns the start of a description that fits on one line of a menu.
 std::string brief(const std::string& description) {
     std::size_t end = description.size();
     for (const char* stop : {". ", "; ", ": ", " ("})
@@ -74,13 +74,12 @@ std::string zsh_function(const std::string& name) {
     return name.empty() ? "_stormcellar" : "_stormcellar_" + replaced(name, " ", "_");
 }
 
-// Returns the values that can be listed. They are the only allowed values, or else the usual
-// values.
+// Returns the values that can be listed: all allowed values, or else the usual values.
 const Words& listed(const OptionReference& option) {
     return option.choices.empty() ? option.offers : option.choices;
 }
 
-// Returns every command below the program, as the words that may follow `help`.
+// Returns the names of all commands, as the words that may follow `help`.
 Words names_of_all(const CommandReference& program) {
     Words names;
     for (const CommandReference* command : all_commands(program)) {
@@ -91,8 +90,8 @@ Words names_of_all(const CommandReference& program) {
     return names;
 }
 
-// Returns the kind of positional arguments, which are files unless the table of words says
-// otherwise.
+// Returns the kind of values to offer for positional arguments: files, unless the table of words
+// says otherwise.
 Kept kept_of_arguments(const CommandReference& command) {
     for (const OptionReference& option : command.options) {
         if (!option.place.empty() && option.kept != Kept::nowhere) return option.kept;
@@ -100,7 +99,8 @@ Kept kept_of_arguments(const CommandReference& command) {
     return Kept::files;
 }
 
-// An offer for values that no list can name. `word` is the argument of --complete.
+// An offer for values that no list can name. The program finds them; `word` is the argument of its
+// option --complete.
 struct KeptOffer {
     Kept kept = Kept::nowhere;
     std::string_view word, zsh, fish;
@@ -139,8 +139,8 @@ std::string zsh_arguments(const CommandReference& command, const Words& all_name
     return "'*:file:_files'";
 }
 
-// Writes an option. Each of its names gets its own line, so that no exclusive lists of _arguments
-// are needed.
+// Writes an option, with a line for each of its names. One line for all names would need a list of
+// options that exclude each other.
 void write_zsh_option(const OptionReference& option, std::string& out) {
     for (const std::string& name : option.names) {
         const bool is_long = name.starts_with("--");
@@ -193,7 +193,7 @@ std::string fish_values(const OptionReference& option) {
     return std::string(offer.fish) + (offer.kept == Kept::files ? offered : "");
 }
 
-// Writes the domains or commands that positional arguments may be besides files.
+// Writes the domains or commands that fish offers for positional arguments, besides files.
 void write_fish_arguments(const CommandReference& command, const Words& all_names,
                           std::string& out) {
     const Kept kept = kept_of_arguments(command);
@@ -216,7 +216,7 @@ void write_fish_option(const CommandReference& command, const OptionReference& o
     out += fmt::format(" -d {}\n", fish_quoted(brief(option.description)));
 }
 
-// Writes the options that take a value, and the values to offer after each.
+// Writes the options that take a value, and for each option the values that bash offers.
 std::string bash_values_of(const CommandReference& command) {
     std::string values;
     std::string cases;
@@ -236,8 +236,8 @@ std::string bash_values_of(const CommandReference& command) {
     return out;
 }
 
-// A format string. The first placeholder is for the names of all commands, the second for the words
-// that each command offers.
+// A format string. Its first placeholder takes the names of all commands, the second takes the
+// words that bash offers for each command.
 constexpr std::string_view bash_script =
     R"bash(# bash completion of stormcellar; made by stormcellar --reference bash.
 # Adds files, directories, or the names that the program knows, to what is offered.

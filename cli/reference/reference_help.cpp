@@ -29,7 +29,7 @@ std::size_t page_width() {
     return std::clamp(width, least_width, most_width);
 }
 
-// Breaks a text at blanks; the lines after the first begin at this column.
+// Breaks a text at blanks. Lines after the first begin at this column.
 std::string wrapped(const std::string& text, std::size_t column) {
     const std::size_t width = page_width();
     std::string out;
@@ -101,8 +101,7 @@ std::string usage_of(const CommandReference& command) {
     return line + " [OPTIONS]";
 }
 
-// Returns the options of the short help: arguments first, then the options that the guide calls
-// usual.
+// Returns the options of the short help: arguments first, then the usual options of the guide.
 std::vector<const OptionReference*> usual_options(const CommandReference& command) {
     std::vector<const OptionReference*> usual;
     const CommandGuide* const guide = find_guide(command.name);
@@ -120,7 +119,7 @@ std::vector<const OptionReference*> usual_options(const CommandReference& comman
     return usual;
 }
 
-// Breaks a long command line before an option, in a form that a shell accepts.
+// Breaks a long command line before an option, in a form that a shell accepts as one command.
 std::string example_line(std::string_view line) {
     std::string out;
     std::size_t begin = 0;
@@ -162,7 +161,7 @@ void write_option_row(const OptionReference& option, std::string& out) {
     write_row(head_of(option), fmt::format("{}", fmt::join(sentences, " ")), out);
 }
 
-// Writes the options. Returns how many were left out.
+// Writes the options, and returns how many it left out.
 std::size_t write_options(const CommandReference& command, HelpExtent extent, std::string& out) {
     out += "\nOptions:\n";
     if (extent == HelpExtent::usual) {

@@ -6,7 +6,7 @@
 namespace stormcellar::cli {
 namespace {
 
-// Escapes everything that roff would interpret.
+// Escapes all characters that roff would interpret.
 std::string roff(const std::string& text) {
     std::string out;
     for (const char letter : text) {

@@ -31,7 +31,7 @@ Names row_names(const Rows& rows) {
     return names;
 }
 
-// Values that completions offer.
+// The values that completions offer.
 namespace offered {
 
 Names products() {
@@ -106,7 +106,7 @@ Names tiff_contents() {
     return row_names(render::tiff_contents);
 }
 
-// Returns each effect of the chains once, with its possible settings.
+// Returns each effect of the chains once, with the settings that it may have.
 Names settings_of(const std::vector<accuracy::Chain>& chains) {
     Names names;
     for (const accuracy::Chain& chain : chains) {
@@ -135,10 +135,10 @@ Names effects_of_pictures() {
 }  // namespace offered
 
 constexpr auto value_word_rows = std::to_array<ValueWord>({
-    // options and arguments that name something
+    // Options and arguments that name something.
     {"DOMAIN", "DOMAIN", Kept::domains},
     {"--domain", "DOMAIN", Kept::domains},
-    // Files are offered in addition to domains.
+    // `frame` accepts files as well as domains, so offer both.
     {"FILE", "FILE", Kept::domains, nullptr, "frame"},
     {"FILE", "FILE", Kept::domains, nullptr, "loop"},
     {"--station", "STATION", Kept::stations},
@@ -161,7 +161,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--effect", "NAME=on|off|auto", Kept::nowhere, offered::effects_of_pictures, "frame"},
     {"--effect", "NAME=on|off|auto", Kept::nowhere, offered::effects_of_pictures, "loop"},
     {"--tolerance", "LIMITS"},
-    // files and directories
+    // Options and arguments for files and directories.
     {"--output", "FILE", Kept::files},
     {"--output", "DIRECTORY", Kept::directories, nullptr, "fetch"},
     {"--output", "DIRECTORY", Kept::directories, nullptr, "synth"},
@@ -185,7 +185,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--task", "NUMBER"},
     {"--mosaic", "NAME"},
     {"--partition", "NAME"},
-    // times
+    // Options for times.
     {"--time", "TIME"},
     {"--from", "TIME"},
     {"--to", "TIME"},
@@ -197,7 +197,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--older-than", "HOURS"},
     {"--bytes", "SIZE"},
     {"--faults", "FAULTS"},
-    // places and sizes
+    // Options for places and sizes.
     {"--center", "PLACE"},
     {"--at", "PLACE"},
     {"--position", "LAT,LON,HEIGHT"},

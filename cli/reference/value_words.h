@@ -1,8 +1,8 @@
 // cli/reference/value_words.h -- names the kind of value that each option takes.
 //
-// The parser knows only that a value is a text; this table tells whether the text is a file, a
-// moment or a station. Help, the manual and the completions of shells use it. Thread contract: the
-// table is constant.
+// The parser knows only that a value is a text. This table says whether the text is a file, a
+// moment or a station, for example. Help, the manual and the completions of shells use it. Thread
+// contract: the table is constant.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace stormcellar::cli {
 
-// Place to find values that no list can name.
+// The place where completions find values that no list can name.
 enum class Kept { nowhere, files, directories, domains, stations, commands };
 
 struct ValueWord {
@@ -23,8 +23,8 @@ struct ValueWord {
     std::string_view command = {};                   // "catalog get"; empty: every command
 };
 
-// Returns null if there is no row. A row for this command takes precedence over one for every
-// command.
+// Returns the row of an option, or null if there is none. A row for this command takes precedence
+// over a row for all commands.
 [[nodiscard]] const ValueWord* find_value_word(std::string_view option, std::string_view command);
 [[nodiscard]] std::span<const ValueWord> value_words();
 

@@ -28,7 +28,7 @@ std::vector<std::string> option_names_of(const CommandReference& command) {
     return names;
 }
 
-// Returns null if the command has no such option.
+// Returns the option of this name, or null if the command has none.
 const OptionReference* find_option(const std::string& name, const CommandReference& command) {
     for (const OptionReference& one : command.options) {
         const bool is_named = std::ranges::find(one.names, name) != one.names.end();
@@ -42,7 +42,7 @@ std::string value_of(const std::string& name, const CommandReference& command) {
     return option == nullptr ? std::string{} : option->value;
 }
 
-// Rewrites the parser's message "Could not convert: --width = abc".
+// Returns a clearer form of the parser's message "Could not convert: --width = abc".
 std::string not_a_number(std::string_view said, const CommandReference& command) {
     const std::size_t equals = said.find(" = ");
     const std::string option(said.substr(0, equals));
@@ -52,8 +52,8 @@ std::string not_a_number(std::string_view said, const CommandReference& command)
                        found != nullptr && found->is_whole ? "whole " : "", text);
 }
 
-// Makes a sentence from the parser's message, which may be "--last: Value 0 not in range 1 to 9" or
-// "--last: 1 required INT missing".
+// Returns a sentence made from the parser's message, such as "--last: Value 0 not in range 1 to 9"
+// or "--last: 1 required INT missing".
 std::string sentence_of(const std::string& said, const CommandReference& command) {
     constexpr std::string_view value = ": Value ", range = " not in range ";
     const std::size_t at_value = said.find(value), at_range = said.rfind(range);
@@ -84,7 +84,7 @@ std::string sentence_of(const std::string& said, const CommandReference& command
 }  // namespace
 
 std::string no_command(const std::string& name, const CommandReference& program) {
-    // Suggest names from the known part of the command.
+    // Suggest names that the known part of the command has.
     const std::size_t space = name.rfind(' ');
     const CommandReference* above =
         space == std::string::npos ? &program : find_command(program, name.substr(0, space));
@@ -96,8 +96,8 @@ std::string no_command(const std::string& name, const CommandReference& program)
                        above->name.empty() ? "" : above->name + " ", *nearest);
 }
 
-// Returns the reason. If a required option is missing because it was misspelled, report the
-// misspelling; CLI11 would report the missing option.
+// Returns the reason of the refusal. If an option was misspelled, reports the misspelling; CLI11
+// would report that the option is missing.
 std::string reason_of(const CLI::ParseError& error, std::vector<std::string> left,
                       const CommandReference& command) {
     // For "--prodct volume", report the option, not the word after it.

@@ -15,11 +15,12 @@ class ParseError;
 
 namespace stormcellar::cli {
 
-// Returns "there is no command 'fram'; did you mean 'frame'?", also for "catalog lits".
+// Returns a message such as "there is no command 'fram'; did you mean 'frame'?", also for "catalog
+// lits".
 [[nodiscard]] std::string no_command(const std::string& name, const CommandReference& program);
 
-// Returns why the parser refused the words after this command. `left` are the words that it did not
-// accept.
+// Returns the reason why the parser refused the words after this command. `left` are the words that
+// the parser did not accept.
 [[nodiscard]] std::string reason_of(const CLI::ParseError& error, std::vector<std::string> left,
                                     const CommandReference& command);
 

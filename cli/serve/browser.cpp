@@ -12,8 +12,8 @@ bool is_set(const char* variable) {
     return value != nullptr && *value != '\0';
 }
 
-// Returns false without a desktop, where xdg-open would start a terminal's browser, which cannot
-// draw the page.
+// Returns false if there is no desktop. xdg-open would then start a text browser in the terminal,
+// which cannot draw the page.
 bool has_desktop() {
     return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("BROWSER");
 }

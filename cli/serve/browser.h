@@ -7,9 +7,9 @@
 
 namespace stormcellar::cli {
 
-// Asks the desktop to show an address, by xdg-open. Returns false without a desktop, or if xdg-open
-// is not installed. Failures of the browser afterward go unnoticed. The browser outlives the
-// program.
+// Asks the desktop, by xdg-open, to show an address. Returns false without a desktop, or if
+// xdg-open is not installed. Does not notice later failures of the browser. The browser outlives
+// the program.
 bool open_in_browser(const std::string& address);
 
 }  // namespace stormcellar::cli

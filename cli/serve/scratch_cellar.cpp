@@ -24,7 +24,7 @@ Status add_file(const fs::path& file, std::set<fs::path>& files) {
     return {};
 }
 
-// Returns options to grid all moments that are derived, or all that are not.
+// Returns the options for gridding all derived moments, or all moments that are not derived.
 pipeline::IngestOptions options_for_moments(bool are_derived, int threads) {
     pipeline::IngestOptions options;
     options.stations = std::make_shared<StationRule>(StationRule::any(StationRule::no_limit));

@@ -1,9 +1,9 @@
 // cli/serve/scratch_cellar.h -- makes a catalog and a cache in a temporary directory from the files
-// of a command line, as stormcellard would make them.
+// of a command line. They are the same as those that stormcellard would make.
 //
 // The raw files are read in place. The destructor removes the directory.
 //
-// Threads   One thread at a time; others may read catalog and cache meanwhile.
+// Threads   One thread at a time; other threads may read the catalog and the cache meanwhile.
 // Errors    See each function.
 #pragma once
 
@@ -21,8 +21,8 @@
 
 namespace stormcellar::cli {
 
-// Returns the absolute paths, without links, of the named files and of all files in named
-// directories and sets of chunks, sorted. Prints a note on stderr for each entry that
+// Returns the absolute paths, with links resolved, of the named files and of all files in named
+// directories and sets of chunks. The paths are sorted. Prints a note on stderr for each entry that
 // InputFiles::find() leaves out. Errors: those of InputFiles::find(); bad_argument for standard
 // input.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> files_to_serve(
@@ -36,11 +36,12 @@ class ScratchCellar {
     [[nodiscard]] std::filesystem::path catalog() const { return scratch_.path() / "catalog"; }
     [[nodiscard]] std::filesystem::path cache() const { return scratch_.path() / "cache"; }
     // Ingests one file, and grids all measured moments of its volumes. Returns the number of grids
-    // made; a note on stderr says why a file gives none. Errors: those of
-    // pipeline::Ingestor::ingest().
+    // that were made. If a file gives no grids, prints a note on stderr that says why. Errors:
+    // those of pipeline::Ingestor::ingest().
     Result<std::size_t> take(const std::filesystem::path& file);
-    // Grids the derived moments of a file that take() ingested before. Dealiasing takes time, which
-    // the first picture need not wait for. Errors: those of pipeline::Ingestor::ingest_again().
+    // Grids the derived moments of a file that take() ingested before. This is separate from take()
+    // because dealiasing takes time, for which the first picture need not wait. Errors: those of
+    // pipeline::Ingestor::ingest_again().
     Status derive(const std::filesystem::path& file);
 
   private:
@@ -51,7 +52,7 @@ class ScratchCellar {
     catalog::CatalogWriter catalog_;
     cache::StoreWriter store_;
     pipeline::Ingestor ingestor_;
-    pipeline::Ingestor deriver_;  // makes the grids of derived moments alone
+    pipeline::Ingestor deriver_;  // makes only the grids of derived moments
 };
 
 }  // namespace stormcellar::cli

@@ -1,4 +1,4 @@
-// stormcellar serve: the data server for one person, until Ctrl-C.
+// stormcellar serve: runs the data server for one person until Ctrl-C.
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,8 +27,8 @@ struct ServeOptions {
     int threads = 0;
 };
 
-// Reads the configuration if one is named or if no option says what to serve. Otherwise returns a
-// setup that names no directories.
+// Reads the configuration if one is named, or if no option says which directories to serve.
+// Otherwise returns a setup that names no directories.
 Result<web::WebSetup> setup_by_config(const ServeOptions& options) {
     web::WebSetup setup;
     setup.state.clear();
@@ -87,7 +87,8 @@ int run_serve(const ServeOptions& options) {
     if (!setup) return report_error(setup.error());
     set_added_stations(setup->added_stations);
     set_log_level(options.verbose ? "debug" : "warning");
-    // From here on the program itself handles Ctrl-C, so that it leaves nothing behind.
+    // Once the signals are open, the program itself handles Ctrl-C, so that it leaves nothing
+    // behind.
     const auto signals = Signals::open();
     if (!signals) return report_error(signals.error());
     std::unique_ptr<ServedFiles> files;

@@ -22,16 +22,16 @@ namespace stormcellar::cli {
 // Ingests the files one after another.
 class ServedFiles {
   public:
-    // Ingests files until one has given grids, so that the page shows something from the start.
-    // Decoding and gridding use `threads` threads; 0: one for each processor. Errors: those of
-    // files_to_serve() and ScratchCellar; not_found if no file gives grids.
+    // Ingests files until one of them has given grids, so that the page shows something from the
+    // start. Decoding and gridding use `threads` threads; 0: one for each processor. Errors: those
+    // of files_to_serve() and ScratchCellar; not_found if no file gives grids.
     static Result<std::unique_ptr<ServedFiles>> take(const std::vector<std::string>& names,
                                                      int threads);
     ServedFiles(const ServedFiles&) = delete;
     ServedFiles& operator=(const ServedFiles&) = delete;
     ~ServedFiles();
 
-    // Ingests the remaining files on another thread, and then grids the derived moments of all
+    // Starts a thread that ingests the remaining files and then grids the derived moments of all
     // files.
     void take_rest();
     [[nodiscard]] const ScratchCellar& cellar() const { return *cellar_; }
@@ -45,16 +45,17 @@ class ServedFiles {
     std::unique_ptr<ScratchCellar> cellar_;
     std::vector<std::filesystem::path> files_;
     std::size_t next_ = 0;
-    // Files that gave grids. Of the chunks of a volume, this is the one that completed it.
+    // Files that gave grids. If a volume comes in chunks, this is the chunk that completed it.
     std::vector<std::filesystem::path> gridded_;
     std::atomic<bool> is_stopping_{false};
     std::thread thread_;
 };
 
-// Sets up a server of these files. No further volumes come, so no station counts as silent.
+// Makes the setup of a server serve these files. No further volumes come, so no station counts as
+// silent.
 void serve_files(const ServedFiles& files, web::WebSetup& setup);
 
-// Returns when a signal asks the program to end.
+// Waits until a signal asks the program to end.
 void serve_until_signal(const Signals& signals, web::WebService& service);
 
 }  // namespace stormcellar::cli

@@ -24,7 +24,7 @@ struct ViewOptions {
     int threads = 0;
 };
 
-// Returns a setup that only this machine can reach, at any free port.
+// Returns the setup of a server at any free port that only this machine can reach.
 Result<web::WebSetup> setup_of_files(const ServedFiles& files) {
     web::WebSetup setup;
     setup.state.clear();
@@ -41,7 +41,8 @@ int run_view(const ViewOptions& options) {
                              "this program was built without the viewer (STORMCELLAR_VIEWER=OFF)"});
     }
     set_log_level("warning");
-    // From here on the program itself handles Ctrl-C, so that it leaves nothing behind.
+    // Once the signals are open, the program itself handles Ctrl-C, so that it leaves nothing
+    // behind.
     const auto signals = Signals::open();
     if (!signals) return report_error(signals.error());
     auto files = ServedFiles::take(options.files, options.threads);

@@ -1,4 +1,4 @@
-// cli/shared/cache_domain.h -- finds which domain of a cache a command line means.
+// cli/shared/cache_domain.h -- finds the domain of a cache that a command line names.
 //
 // Threads   Pure functions, except that they read the cache.
 // Errors    See each function.
@@ -14,14 +14,14 @@
 
 namespace stormcellar::cli {
 
-// Sorts words into files and a domain as tell_apart() does. The domains are those of the given
-// cache, else of the service's cache.
+// Sorts words into files and a domain, as tell_apart() does. Looks for the domain in the given
+// cache, else in the service's cache.
 [[nodiscard]] Result<SourceNames> tell_apart_from_cache(const std::vector<std::string>& words,
                                                         const std::string& domain,
                                                         const PlaceOption& cache);
 
-// If no domain is named, takes the only one of the cache. Errors: not_found for a cache without
-// domains; bad_argument, naming them, for several.
+// If no domain is named, takes the cache's only domain. Errors: not_found if the cache has no
+// domains; bad_argument, naming them, if it has several.
 [[nodiscard]] Status take_only_domain(const cache::StoreReader& store, std::string& domain);
 
 }  // namespace stormcellar::cli

@@ -19,11 +19,11 @@ using accuracy::Setting;
 
 constexpr std::string_view standard_profile = "standard";
 
-// The settings of effects that a method names.
+// The settings of effects that the name of a method stands for.
 using Settings = std::vector<EffectOverride>;
 
-// Returns the settings of each method. An interpolation turns its own effect on, and the next
-// effect off.
+// Returns the settings of each method. A method of interpolation turns its own effect on and the
+// next effect off.
 const std::map<std::string, Settings>& methods() {
     static const std::map<std::string, Settings> known = [] {
         const accuracy::Chain chain = grid::effects_of(level2::Moment::ref);
@@ -73,7 +73,7 @@ Result<Settings> settings_of_methods(const EffectOptions& options) {
     return settings;
 }
 
-// Returns, for example, "column_interpolation on, cell_size off".
+// Returns the settings as text, for example "column_interpolation on, cell_size off".
 std::string text_of(const Settings& settings) {
     std::vector<std::string> parts;
     parts.reserve(settings.size());
@@ -94,7 +94,7 @@ Status set_effects(const EffectOptions& options, accuracy::Chain& chain) {
     }
     accuracy::Chain by_name = chain;
     if (auto set = accuracy::apply_overrides(by_name, settings); !set) return set;
-    // An explicit setting of an effect overrides the method's.
+    // An effect that is set explicitly overrides the setting of the method.
     std::erase_if(*by_method, [&](const EffectOverride& set) {
         return std::any_of(settings.begin(), settings.end(),
                            [&](const EffectOverride& named) { return named.name == set.name; });
@@ -126,7 +126,7 @@ Result<grid::RefractivityProfile> parse_profile(const std::string& text) {
     if (text == standard_profile) return grid::RefractivityProfile::standard(45);
     auto sounding = grid::read_sounding(text);
     if (sounding) return sounding;
-    // An unknown name, or a file without a sounding, is bad usage.
+    // If the name is unknown or the file has no sounding, the user typed something wrong.
     const ErrorCode code = sounding.error().code;
     const bool unreadable = code == ErrorCode::io || code == ErrorCode::permission;
     return fail(unreadable ? code : ErrorCode::bad_argument,
@@ -134,7 +134,7 @@ Result<grid::RefractivityProfile> parse_profile(const std::string& text) {
                 sounding.error().message);
 }
 
-// Turns refraction on if a profile was given, unless another option sets it.
+// Turns refraction on if a profile was given, unless another option sets refraction.
 void bend_by_profile(EffectRequest& request) {
     for (accuracy::Step& step : request.chain.steps) {
         for (accuracy::Effect& effect : step.effects) {

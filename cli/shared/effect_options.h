@@ -1,5 +1,5 @@
-// cli/shared/effect_options.h -- the options for how exactly to grid, and the request made from
-// them.
+// cli/shared/effect_options.h -- the options that choose how exactly to grid, and their parsed
+// form.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ struct EffectOptions {
     std::vector<std::string> effects;
     std::string tolerance;
     std::string profile{default_profile};
-    std::string time_method;  // for several volumes; add_mosaic_options() adds it
+    std::string time_method;  // only for several volumes, where add_mosaic_options() adds it
     bool explain = false;
 };
 
@@ -37,17 +37,20 @@ struct EffectRequest {
     grid::Averaging averaging = grid::Averaging::in_db;
     std::optional<accuracy::Budget> budget;
     grid::RefractivityProfile profile = grid::RefractivityProfile::reference();
-    std::optional<double> sounding_from_m;  // the first level if the profile is a sounding
-    bool profile_bends_nothing = false;     // a profile was given, but refraction is off
+    // Height of the first level, if the profile is a sounding.
+    std::optional<double> sounding_from_m;
+    // A profile was given, but refraction is off, so it has no effect.
+    bool profile_bends_nothing = false;
     bool explain = false;
 
-    // Returns true if errors and times must be predicted for the scene.
+    // Returns true if errors and times must be predicted for the scene, because of a budget or
+    // --explain.
     [[nodiscard]] bool needs_plan() const { return budget.has_value() || explain; }
 };
 
 // Parses the options. A profile other than the default turns refraction on, unless refraction is
-// set explicitly or a tolerance leaves it to the planner. For several volumes, which overlap by the
-// given rule, returns the chain of their mosaic (pipeline/mosaic/mosaic_effects.h). Errors:
+// set explicitly or a tolerance leaves it to the planner. For several volumes, returns the chain of
+// their mosaic (pipeline/mosaic/mosaic_effects.h), whose sites overlap by the given rule. Errors:
 // bad_argument, naming the option; io and permission for a sounding that cannot be read.
 [[nodiscard]] Result<EffectRequest> parse_effects(
     const EffectOptions& options, level2::Moment moment,

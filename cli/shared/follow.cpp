@@ -25,7 +25,7 @@ constexpr std::chrono::milliseconds between_looks{200};
 constexpr std::chrono::milliseconds quiet_time{250};
 constexpr std::chrono::seconds longest_burst{3};
 
-// Values that change with a file or directory; all zero if it does not exist.
+// Values that change whenever a file or directory changes. All are zero if it does not exist.
 struct Stamp {
     std::string path;
     std::uint64_t inode = 0;
@@ -40,7 +40,7 @@ Stamp stamp_of(const std::filesystem::path& path) {
             found.st_size};
 }
 
-// Returns the stamps of the directories of the domain, the moment and its days.
+// Returns the stamps of the directories of the domain, of the moment, and of the moment's days.
 std::vector<Stamp> directories_of(const Following& following) {
     const auto domain = following.cache / following.domain;
     const auto moment = domain / std::string(level2::moment_name(following.moment));
@@ -66,8 +66,8 @@ class Changes {
   public:
     explicit Changes(const Following& following) : following_(following) {}
 
-    // Waits for a change and then for a pause in changes; the first call waits only for the pause.
-    // Returns false if the flag was set.
+    // Waits for a change, and then until the changes pause. The first call waits only for the
+    // pause. Returns false if the flag was set.
     bool wait(const std::atomic<bool>& stop) {
         std::optional<SteadyClock::time_point> began;
         SteadyClock::time_point last;
@@ -80,8 +80,8 @@ class Changes {
             }
             if (began && now - last >= quiet_time) return true;
             if (began && now - *began >= longest_burst) {
-                // A change within the same tick of the file system's clock would be missed, so look
-                // again.
+                // Another change within the same tick of the file system's clock would leave the
+                // stamps unchanged, so look again.
                 known_.reset();
                 return true;
             }
@@ -95,7 +95,8 @@ class Changes {
     std::optional<std::vector<Stamp>> known_;
 };
 
-// Asks for SIGTERM when the parent ends. Returns false if the parent has ended already.
+// Makes the kernel send SIGTERM when the parent ends. Returns false if the parent has ended
+// already.
 bool end_with(pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     return ::getppid() == parent;
@@ -106,7 +107,7 @@ bool end_with(pid_t parent) {
 void add_follow_options(CLI::App& app, FollowOptions& options) {
     app.add_flag("--follow", options.wanted,
                  "Keep running, and make the loop again whenever its grids change");
-    // hidden: stormcellard uses this option for children that must end when the daemon ends
+    // This option is hidden. stormcellard uses it for children that must end when the daemon ends.
     app.add_option("--with-parent", options.parent, "End when the process of this number ends")
         ->group("");
 }

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view standard_input = "standard input";
 constexpr std::uint64_t most_piped_bytes = std::uint64_t{4} << 30;
 
-// Reads everything from a source that can only be read once.
+// Reads all bytes of a source, such as a pipe, that can only be read once.
 Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label) {
     std::vector<std::byte> bytes;
     for (;;) {
@@ -51,8 +51,8 @@ Result<std::vector<std::byte>> read_piped(int descriptor, std::string_view label
 // An archive that is read member by member.
 class OpenArchive {
   public:
-    // Opens an archive. Returns none if the file is not an archive. `piped` has its bytes if they
-    // came through a pipe. Errors: those of opening it.
+    // Opens an archive. Returns none if the file is not an archive. `piped` has the file's bytes if
+    // they came through a pipe. Errors: those of opening the archive.
     static Result<std::unique_ptr<OpenArchive>> open(const fs::path& path,
                                                      const std::vector<std::byte>* piped) {
         auto opened = std::make_unique<OpenArchive>();
@@ -79,8 +79,8 @@ bool is_hidden(const fs::path& path) {
     return path.filename().native().starts_with('.');
 }
 
-// Returns the directory and the part of the name that all chunks of a volume share; empty for any
-// other file.
+// For the name of a chunk, returns the directory and the part of the name that all chunks of its
+// volume share. Returns an empty path for any other file.
 fs::path volume_of_chunk(const std::string& name) {
     const fs::path path{name};
     const std::string file = path.filename().native();
@@ -100,9 +100,9 @@ std::string InputFile::file_name() const {
 struct InputFiles::Impl {
     std::vector<InputFile> files;
     std::vector<std::string> left_out;
-    // The bytes that came through pipes, by path; standard input has an empty path.
+    // The bytes that came through pipes, by the path of the pipe. Standard input has an empty path.
     std::map<fs::path, std::vector<std::byte>> piped;
-    // The last archive read, and the position in it.
+    // The archive that was read last, and the position in it.
     std::unique_ptr<OpenArchive> open;
     fs::path open_path;
 
@@ -116,7 +116,8 @@ struct InputFiles::Impl {
     // Adds the members of an archive. Returns false if the file is not an archive.
     bool add_archive(const std::string& label, const fs::path& path);
     Result<std::vector<std::byte>> read_member(const InputFile& file);
-    // Returns none if the file must be read from its path.
+    // Returns the file's bytes if they came through a pipe. Returns null if the file must be read
+    // from its path.
     [[nodiscard]] const std::vector<std::byte>* piped_of(const fs::path& path) const {
         const auto found = piped.find(path);
         return found == piped.end() ? nullptr : &found->second;
@@ -125,7 +126,7 @@ struct InputFiles::Impl {
 
 bool InputFiles::Impl::add_archive(const std::string& label, const fs::path& path) {
     auto opened = OpenArchive::open(path, piped_of(path));
-    if (!opened || !*opened) return false;  // reading the file reports why
+    if (!opened || !*opened) return false;  // read() will report the reason
     const std::unique_ptr<OpenArchive>& archive = *opened;
     while (const auto member = archive->reader().next()) {
         files.push_back(
@@ -174,7 +175,8 @@ Status InputFiles::Impl::add_chunks(const fs::path& directory,
     return {};
 }
 
-// Adds each volume of which several chunks are named, and removes these chunks from the names.
+// Adds the volumes that have several chunks among the names, and removes these chunks from the
+// names.
 void InputFiles::Impl::add_named_chunks(std::vector<std::string>& names) {
     std::map<fs::path, std::map<int, fs::path>> volumes;
     for (const std::string& name : names) {
@@ -237,7 +239,8 @@ Status InputFiles::Impl::add(const std::string& name) {
 }
 
 Result<std::vector<std::byte>> InputFiles::Impl::read_member(const InputFile& file) {
-    // Continue after the member that was read last. If that fails, start from the beginning.
+    // First look for the member after the one that was read last. If it is not there, start from
+    // the beginning.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (!open || open_path != file.path || attempt > 0) {
             auto opened = OpenArchive::open(file.path, piped_of(file.path));

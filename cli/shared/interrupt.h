@@ -1,4 +1,4 @@
-// cli/shared/interrupt.h -- Ctrl-C as a flag that long work checks between its steps.
+// cli/shared/interrupt.h -- turns Ctrl-C into a flag that long work checks between its steps.
 //
 // While an Interrupt exists, the first SIGINT, SIGTERM or SIGHUP sets the flag instead of ending
 // the program (an ignored signal stays ignored). A second signal ends the program at once. The work
@@ -19,8 +19,8 @@ class Interrupt {
     ~Interrupt();
 
     [[nodiscard]] const std::atomic<bool>& flag() const;
-    // Ends the program by the signal that arrived, so that a shell sees the cause. Returns if none
-    // arrived.
+    // Ends the program by the signal that arrived, so that a shell sees why the program ended.
+    // Returns if no signal arrived.
     void end_by_signal();
 
   private:

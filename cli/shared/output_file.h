@@ -1,8 +1,8 @@
 // cli/shared/output_file.h -- the one file that a command writes, or standard output.
 //
-// "-" means standard output. The file is then made in a temporary place, because its format may
-// need to seek, and is copied when it is complete, so that a reader gets all of it or nothing. If a
-// signal ends the program, the temporary file is removed.
+// "-" means standard output. The output is then written to a temporary file, because its format may
+// need to seek. The complete file is copied to standard output, so that a reader gets all of it or
+// nothing. If a signal ends the program, the temporary file is removed.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -23,9 +23,9 @@ namespace stormcellar::cli {
 
 [[nodiscard]] bool is_stdout(std::string_view output);
 
-// Checks, before long work, that the file can be written and has one of these endings. With `json`,
-// which uses standard output, the file must not be standard output. `what` describes the output, as
-// in "a grid is netCDF". Errors: bad_argument, and those of check_target().
+// Checks, before the long work begins, that the file can be written and has one of these endings.
+// With `json`, which uses standard output, the file must not be standard output. `what` describes
+// the output, as in "a grid is netCDF". Errors: bad_argument, and those of check_target().
 [[nodiscard]] Status check_output_file(const std::string& output,
                                        const std::vector<std::string_view>& endings,
                                        std::string_view what, bool json);
@@ -37,7 +37,7 @@ class OutputFile {
     [[nodiscard]] static Result<OutputFile> open(const std::string& output,
                                                  std::string_view ending = {});
 
-    // the path to write to
+    // The path to which the caller must write.
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     // Copies a temporary file to standard output. Call finish() when the file is complete. Errors:
     // io if standard output does not accept it.
@@ -48,7 +48,7 @@ class OutputFile {
         : path_(std::move(path)), scratch_(std::move(scratch)) {}
 
     std::filesystem::path path_;
-    std::optional<ScratchDirectory> scratch_;  // none: written in place
+    std::optional<ScratchDirectory> scratch_;  // none: the output is written in place
 };
 
 // Writes bytes that are already in memory. Errors: those of writing.

@@ -1,4 +1,4 @@
-// cli/shared/paint.h -- colors trouble in text for a terminal.
+// cli/shared/paint.h -- colors errors and warnings in text for a terminal.
 //
 // Thread contract: pure but for paint_for(), which reads the environment.
 #pragma once
@@ -10,12 +10,12 @@ namespace stormcellar::cli {
 
 enum class Paint { plain, colors };
 
-// Returns Paint::colors only for a terminal. Returns Paint::plain if NO_COLOR is set to any text
-// (no-color.org), or if TERM is missing or "dumb".
+// Returns Paint::colors if the descriptor is a terminal, else Paint::plain. Also returns
+// Paint::plain if NO_COLOR is set to any text (no-color.org), or if TERM is missing or "dumb".
 [[nodiscard]] Paint paint_for(int descriptor);
 
-// Return the text in bold red, for errors, or in yellow, for warnings. An empty text, or a text
-// with Paint::plain, stays unchanged.
+// Return the text in bold red for errors, or in yellow for warnings. Return an empty text, or any
+// text with Paint::plain, unchanged.
 [[nodiscard]] std::string in_red(std::string_view text, Paint paint);
 [[nodiscard]] std::string in_yellow(std::string_view text, Paint paint);
 

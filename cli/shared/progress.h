@@ -1,5 +1,5 @@
-// cli/shared/progress.h -- a progress bar on stderr with the rate and the time left. It is shown if
-// stderr is a terminal and a bar is wanted.
+// cli/shared/progress.h -- a progress bar on stderr, with the rate and the time left. The bar is
+// shown only if stderr is a terminal and the caller wants it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace stormcellar::cli {
 
 class Progress {
   public:
-    // With a total of 0 nothing is shown until show() gives a total.
+    // If the total is 0, nothing is shown until show() gets a total.
     Progress(std::string what, std::size_t total, bool wanted);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -29,9 +29,8 @@ class Progress {
     bool shown_;
 };
 
-// Returns "frames [#####.....]  6/12, 2.5 a second, 3 s left". The line leaves out the
-// rate and the time left while they are unknown: in the first second, before anything is done, and
-// at the end.
+// Returns a line such as "frames [#####.....]  6/12, 2.5 a second, 3 s left". The line lacks the
+// rate and the time left in the first second, before anything is done, and at the end.
 [[nodiscard]] std::string progress_line(const std::string& what, std::size_t done,
                                         std::size_t total, double elapsed_s = 0);
 

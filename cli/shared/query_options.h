@@ -14,7 +14,7 @@
 
 namespace stormcellar::cli {
 
-// --from and --to as typed; both inclusive; empty: open.
+// --from and --to as typed, both inclusive. An empty text means no limit.
 struct TimeRangeOptions {
     std::string from;
     std::string to;
@@ -28,12 +28,12 @@ struct TimeRange {
 // wrong order.
 [[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
 
-// Prints the document on stdout, indented by two spaces. Characters beyond ASCII are written as
-// \uXXXX, which means the same to a program and keeps names from controlling a terminal. Bytes that
-// are not UTF-8 become U+FFFD.
+// Prints the document on stdout, indented by two spaces. Writes characters beyond ASCII as \uXXXX.
+// This means the same to a program, and keeps names from controlling a terminal. Replaces bytes
+// that are not UTF-8 by U+FFFD.
 void print_json(const nlohmann::json& document);
 
-// Warns on stderr if the newest time that is shown is in the future (is_believed()).
+// Warns on stderr if the newest time that is shown is too far in the future (is_believed()).
 void warn_of_future(UtcTime newest);
 
 // Reports on stderr that nothing matched. Returns the exit status.
@@ -41,11 +41,11 @@ int report_nothing_matched();
 
 [[nodiscard]] nlohmann::json json_time(const std::optional<UtcTime>& time);  // null for none
 
-// Parses "KBGM,KENX"; the result is sorted, each name once. Errors: bad_argument.
+// Parses a list such as "KBGM,KENX". Returns the names sorted, each once. Errors: bad_argument.
 [[nodiscard]] Result<std::vector<std::string>> parse_stations(const std::string& text);
 // Parses "WEST,SOUTH,EAST,NORTH" in degrees. Errors: bad_argument.
 [[nodiscard]] Result<pipeline::Bounds> parse_bounds(const std::string& text);
-// Returns the stations of the table within --bounds. Errors: bad_argument, also if there is none.
+// Returns the stations of the table within --bounds. Errors: bad_argument, also if there are none.
 [[nodiscard]] Result<std::vector<std::string>> stations_within(const std::string& bounds);
 
 }  // namespace stormcellar::cli

@@ -21,10 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
-// A thread that is still writing may create files again while the directory is emptied, so repeat.
+// The number of times that the directory is emptied: a thread that is still writing may create new
+// files meanwhile.
 constexpr int most_rounds = 5;
 
-// The path; set before the handlers are installed.
+// The path of the directory. It is set before the handlers are installed.
 std::array<char, 4096> place{};
 std::array<struct sigaction, ending_signals.size()> before{};
 
@@ -101,7 +102,7 @@ Result<ScratchDirectory> ScratchDirectory::make() {
         return fail(ErrorCode::io, "{}: the name is too long for a temporary directory", name);
     }
     place.fill('\0');
-    // A signal in between must find the directory both made and watched, or neither.
+    // Block signals, so that a signal finds the directory both made and watched, or neither.
     const BlockedSignals blocked(ending_signals);
     if (::mkdtemp(name.data()) == nullptr) {
         return fail(ErrorCode::io, "{}: {}", name, std::system_category().message(errno));

@@ -1,8 +1,8 @@
 // cli/shared/scratch_directory.h -- a temporary directory that does not outlive the program.
 //
-// The destructor removes it. It is also removed if SIGINT, SIGTERM, SIGHUP or SIGPIPE ends the
-// program while the object exists (an ignored signal stays ignored). An Interrupt
-// (cli/shared/interrupt.h) that is made later gets the signal first and passes it on.
+// The destructor removes the directory. It is also removed if SIGINT, SIGTERM, SIGHUP or SIGPIPE
+// ends the program while the object exists (an ignored signal stays ignored). If an Interrupt
+// (cli/shared/interrupt.h) is made later, it gets the signal first and passes it on.
 //
 // Threads   One object at a time.
 #pragma once
@@ -28,7 +28,7 @@ class ScratchDirectory {
   private:
     explicit ScratchDirectory(std::filesystem::path path);
 
-    std::filesystem::path path_;  // empty: moved from
+    std::filesystem::path path_;  // empty: the object was moved from
 };
 
 }  // namespace stormcellar::cli

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 constexpr const char* usual_config = "/etc/stormcellar/stormcellard.toml";
 constexpr const char* variable = "STORMCELLAR_CONFIG";
 
-// Returns the path of the configuration; empty if there is none.
+// Returns the path of the configuration, or an empty path if there is none.
 fs::path config_in_use(const std::string& named) {
     if (!named.empty()) return named;
     if (const char* const by_variable = std::getenv(variable);
@@ -31,7 +31,7 @@ Result<std::optional<ServicePlaces>> service_places(const std::string& config) {
     ServicePlaces places;
     places.config = config_in_use(config);
     if (places.config.empty()) return std::optional<ServicePlaces>{};
-    // Read only these keys; the service checks the rest of the file.
+    // Read only the keys for the directories, because the service checks the rest of the file.
     auto toml = TomlFile::open(places.config);
     if (!toml) return pass_on(toml);
     TomlTable root = toml->root();

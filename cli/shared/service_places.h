@@ -1,8 +1,8 @@
 // cli/shared/service_places.h -- finds a service's cache and catalog from its configuration.
 //
-// The configuration is the file of --config FILE, else of the environment variable
-// STORMCELLAR_CONFIG, else /etc/stormcellar/stormcellard.toml if that can be read. A directory
-// given as an option takes precedence.
+// The configuration is the file named by --config FILE, else by the environment variable
+// STORMCELLAR_CONFIG, else /etc/stormcellar/stormcellard.toml if that can be read. A directory that
+// is given as an option takes precedence over the configuration.
 //
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -23,7 +23,7 @@ inline constexpr const char* usual_cache = "/var/cache/stormcellar";
 
 struct ServicePlaces {
     std::filesystem::path config;  // the file that names the directories below
-    std::filesystem::path drop;    // empty: the file does not name it
+    std::filesystem::path drop;    // drop directory; empty: the file names none
     std::filesystem::path state = usual_state;
     std::filesystem::path cache = usual_cache;
     std::optional<std::filesystem::path> socket = std::nullopt;
@@ -31,8 +31,9 @@ struct ServicePlaces {
     [[nodiscard]] std::filesystem::path catalog() const { return state / "catalog"; }
 };
 
-// Returns the places; none if no configuration is named and none is in the usual place. Errors:
-// those of reading a named file, and bad_argument for its contents.
+// Returns the directories that the configuration names. Returns none if no configuration is named
+// and none is in the usual place. Errors: those of reading a named file, and bad_argument for its
+// contents.
 [[nodiscard]] Result<std::optional<ServicePlaces>> service_places(const std::string& config);
 
 enum class Directory { cache, catalog };
@@ -43,8 +44,8 @@ struct PlaceOption {
     std::string directory;  // as typed; find() sets it if empty
     std::string config;
 
-    // Looks the directory up if it was not typed. Errors: bad_argument, with advice, if no
-    // configuration names the directory; those of service_places().
+    // Looks the directory up in the configuration if it was not typed. Errors: bad_argument, with
+    // advice, if no configuration names the directory; those of service_places().
     [[nodiscard]] Status find();
 };
 // Adds the option for the directory, and --config. `place` must outlive the parse.

@@ -12,7 +12,8 @@ std::string short_duration(std::optional<double> seconds) {
     if (!seconds || !std::isfinite(*seconds)) return "-";
     if (std::isless(*seconds, 0.0)) return "-" + short_duration(-*seconds);
     using Unit = std::pair<double, const char*>;
-    // Each unit is used below its limit. From the limit on, the next unit needs fewer digits.
+    // Each unit is used below its limit. From the limit on, the next larger unit is shorter to
+    // write.
     static constexpr std::array<Unit, 5> units = {
         Unit{1, "s"}, {60, "min"}, {3600, "h"}, {86'400, "d"}, {365.25 * 86'400, "y"}};
     static constexpr std::array<double, 4> ends = {100, 100 * 60, 48 * 3600, 1000 * 86'400.0};

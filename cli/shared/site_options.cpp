@@ -51,7 +51,7 @@ Status apply_site(const SiteRequest& request, level2::Volume& volume) {
     const auto& [latitude_deg, longitude_deg, altitude_m] = *request.position;
     set_added_stations(
         {{volume.station, volume.station, latitude_deg, longitude_deg, altitude_m, true}});
-    // The requested position replaces the file's.
+    // The requested position replaces the position in the file.
     if (!volume.block) return {};
     volume.block->latitude_deg = static_cast<float>(latitude_deg);
     volume.block->longitude_deg = static_cast<float>(longitude_deg);

@@ -1,7 +1,8 @@
 // cli/shared/site_options.h -- the options that name a file's radar and its position.
 //
-// They are for radars whose position is neither in the file nor in the station table: files of the
-// nineties, test beds, mobile and foreign radars. A daemon has [[station]] tables for this.
+// The options are for radars whose position is neither in the file nor in the station table: radars
+// in files of the nineties, test beds, mobile and foreign radars. The configuration of a daemon has
+// [[station]] tables for the same purpose.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,7 @@ struct SiteOptions {
     std::string position;
 };
 void add_site_options(CLI::App& app, SiteOptions& options);
-// The end of a message that says that the position of a radar is unknown.
+// The end of a message about a radar whose position is unknown. It says how to give the position.
 inline constexpr std::string_view how_to_place =
     "; name the radar with --station ICAO, or give its position with --position LAT,LON,HEIGHT";
 
@@ -37,9 +38,9 @@ struct SiteRequest {
 // Parses the options. Errors: bad_argument, naming the option.
 [[nodiscard]] Result<SiteRequest> parse_site(const SiteOptions& options);
 
-// Gives the volume the requested name and position. This also adds them to the station table of the
-// process, so call it while no other thread uses that table. Errors: bad_argument for a position
-// without a name.
+// Gives the volume the requested name and position. Also adds them to the process's station table,
+// so call it while no other thread uses that table. Errors: bad_argument for a position without a
+// name.
 [[nodiscard]] Status apply_site(const SiteRequest& request, level2::Volume& volume);
 
 }  // namespace stormcellar::cli

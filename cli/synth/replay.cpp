@@ -1,4 +1,4 @@
-// stormcellar replay SOURCE... DROP: plays files into a drop directory as LDM would.
+// stormcellar replay SOURCE... DROP: writes files into a drop directory as LDM would.
 #include "synth/replay.h"
 
 #include <cstdio>
@@ -31,7 +31,7 @@ struct ReplayCommandOptions {
     bool json = false;
 };
 
-// Returns the duration as text: "4.5 d" or "no time".
+// Returns the duration as text, such as "4.5 d" or "no time".
 std::string duration_of(double seconds) {
     return seconds < 0.001 ? "no time" : short_duration(seconds);
 }
@@ -47,8 +47,8 @@ void say_plan(const synth::ReplayPlan& plan) {
                                              : "");
 }
 
-// Reports the first wait, and later each wait that is more than twice as long as the last reported
-// wait.
+// Reports the first wait. Later reports only a wait that is more than twice as long as the last
+// reported wait.
 class WaitNotes {
   public:
     explicit WaitNotes(Progress& progress) : progress_(progress) {}
@@ -112,7 +112,7 @@ void print_faults(const std::vector<synth::FaultMade>& faults) {
         fmt::print(stderr, "{}: {}\n", synth::to_string(fault), count);
 }
 
-// Reports and removes volumes that cannot be sent in chunks.
+// Removes the volumes that cannot be sent in chunks, and reports them.
 void leave_out_unfit(std::vector<synth::ReplayItem>& items) {
     std::erase_if(items, [](const synth::ReplayItem& item) {
         const auto why = synth::why_not_in_chunks(item);
