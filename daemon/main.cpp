@@ -1,4 +1,4 @@
-// stormcellard: the service. The text below describes its usage.
+// stormcellard: the service. The text below describes its command line.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -44,7 +44,7 @@ constexpr std::string_view usage =
     "  --check-config   check FILE and, without --no-loops, its loops' scenes, and exit\n"
     "  --version, --help\n";
 
-// Growing volumes and databases of all stations take some 1,000 descriptors.
+// The growing volumes and the databases of all stations take some 1,000 descriptors.
 constexpr std::uint64_t wanted_descriptors = 16'384;
 
 Status make_directory(const std::filesystem::path& path) {
@@ -54,8 +54,7 @@ Status make_directory(const std::filesystem::path& path) {
     return {};
 }
 
-// Returns the part of a path that should be a directory but is something else; empty if there is
-// none.
+// Returns the part of a path that exists but is not a directory; empty if there is no such part.
 std::filesystem::path in_the_way_of(std::filesystem::path directory) {
     std::error_code error;
     while (!std::filesystem::exists(directory, error) && directory.has_relative_path())
@@ -196,7 +195,7 @@ int run(const ServiceArguments& arguments) {
     if (!config) return complain(program, config.error());
     if (arguments.check) {
         if (arguments.flag == no_loops) {
-            // Another service runs the loops.
+            // Another process runs the loops.
         } else if (const Status fine =
                        check_loops(config->reloadable.loops, config->fixed.paths.cache);
                    !fine) {

@@ -2,8 +2,8 @@
 //
 // The keeper rolls the cache (evicts grids beyond the budgets) every 5 seconds, so it notices a
 // full file system within 10 seconds. A roll may remove thousands of files, so it runs in a thread
-// of its own. The log names the number and the size of evicted grids. If something keeps the cache
-// over its budgets, the log says why, at once and then every 10 minutes.
+// of its own. The log says how many grids were evicted, and their size. If something keeps the
+// cache over its budgets, the log says why: at once, and then every 10 minutes.
 //
 // Threads   One thread at a time. `wake` is called from the thread of the roll and must only
 //           signal.
@@ -28,11 +28,12 @@ class CacheKeeper {
 
     CacheKeeper(Sink& sink, std::function<void()> wake) : sink_(sink), wake_(std::move(wake)) {}
 
-    // Takes the result of the last roll if that roll has ended, and starts the next roll if it is
-    // due. Returns the contents of the cache if they have changed, else none.
+    // Takes the result of the last roll if it has ended, and starts the next roll if it is due.
+    // Returns the contents of the cache if they have changed, else none.
     std::optional<cache::StoreUsage> poll(SteadyTime now, const cache::Budgets& budgets);
     void roll_soon() { next_ = {}; }  // call when the budgets have changed
-    // Returns when poll() has something to do next. The end of a roll also calls `wake`.
+    // Returns when poll() next has something to do. When a roll ends, poll() has something to do,
+    // too; `wake` reports that.
     [[nodiscard]] SteadyTime next_time() const { return next_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread that rolls
 

@@ -25,8 +25,8 @@ void log_problem(std::string_view what, const Error& error) {
                 printable(error.message));
 }
 
-// Returns true if the database cannot be used at all. The service reports this, so the caretaker
-// need not report it.
+// Returns true if the database cannot be used at all. The caretaker does not report such a
+// database, because the service does.
 bool is_in_trouble(const catalog::CatalogReader& catalog, const std::string& station) {
     const auto troubles = catalog.troubles();
     return std::any_of(troubles.begin(), troubles.end(),
@@ -83,7 +83,7 @@ bool Caretaker::compare_sites() {
     while (true) {
         if (!pause({})) return false;
         auto report = of_.sites.compare_next();
-        if (!report || !*report) break;  // the rounds report a cache that cannot be read
+        if (!report || !*report) break;  // the rounds report that the cache cannot be read
         links_.compared(std::move(**report));
     }
     next_look_ = std::chrono::steady_clock::now() + times_.between_looks;
@@ -201,7 +201,7 @@ void Caretaker::refill() {
     refill_frames();
 }
 
-// Makes missing frames. Call it after the partials were made.
+// Makes the frames of mosaics that are missing. Call it after the missing partials were made.
 void Caretaker::refill_frames() {
     const auto missing = of_.mender.missing_frames(times_.refill);
     if (!missing) return log_problem("cannot look for missing frames", missing.error());

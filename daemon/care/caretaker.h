@@ -1,15 +1,14 @@
-// daemon/care/caretaker.h -- looks after stored data, in a thread of its own.
+// daemon/care/caretaker.h -- checks and repairs stored data, in a thread of its own.
 //
 // At the start the caretaker examines every database and checks the header of every grid. Then it
-// works in rounds. In each round it makes the newest missing grids again, and reads and verifies
-// every grid, one a second. An hour after the last grid, the next round begins. The caretaker
-// repairs damage (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping
-// sites (pipeline/mosaic/site_watch.h) as mosaics become complete. Arriving files have priority:
-// the caretaker begins no step while jobs wait.
+// works in rounds. In each round it makes the newest missing grids, and reads and verifies every
+// grid, one a second. The next round begins an hour after the last grid. The caretaker repairs
+// damage (pipeline/care/mend_cache.h) and logs it. Between grids it compares overlapping sites
+// (pipeline/mosaic/site_watch.h) when mosaics are complete. Arriving files have priority: the
+// caretaker begins no step while jobs wait.
 //
-// Threads   The functions of CareLinks are called from this object's thread and must be safe to
-//           call from it. The destructor waits for the step that has begun (one grid or one pair of
-//           sites).
+// Threads   The functions of CareLinks are called from this object's thread and must allow that.
+//           The destructor waits until the present step (one grid or one pair of sites) has ended.
 #pragma once
 
 #include <chrono>
@@ -24,11 +23,11 @@
 namespace stormcellar::daemon {
 
 struct CareTimes {
-    // grids newer than this are made again; 0: none
+    // Missing grids newer than this are made again; 0: none.
     std::chrono::milliseconds refill{std::chrono::hours{6}};
     std::chrono::milliseconds between_grids{1000};
     std::chrono::milliseconds between_rounds{std::chrono::hours{1}};
-    // time between searches for sites to compare
+    // Time between two searches for sites to compare.
     std::chrono::milliseconds between_looks{5000};
 };
 
@@ -56,11 +55,11 @@ class Caretaker {
 
   private:
     void run();
-    // The next two functions return false if the thread must end.
+    // Both functions return false if the thread must end.
     bool look_at_all();
     bool round();
     void examine_databases();
-    // Checks all grids that can be listed. Returns false if the thread must end.
+    // Checks every grid that can be listed. Returns false if the thread must end.
     bool check_grids(pipeline::MendDepth depth, std::chrono::milliseconds between);
     void refill();
     void refill_frames();
@@ -68,11 +67,12 @@ class Caretaker {
     // Compares the sites that are due, at most once in `between_looks`. Returns false if the thread
     // must end.
     bool compare_sites();
-    // Waits for `least`, and then until the service is idle. Returns false if the thread must end.
+    // Waits for the time `least`, and then until the service is idle. Returns false if the thread
+    // must end.
     bool pause(std::chrono::milliseconds least);
     // Waits for `time` and returns false. Returns true as soon as the thread must end.
     bool is_stopped_within(std::chrono::milliseconds time) STORMCELLAR_REQUIRES(mutex_);
-    // Waits for `least`, and then until the service is idle. In the meantime, compares the sites
+    // Waits for the time `least`, and then until the service is idle. Meanwhile compares the sites
     // that are due. Returns false if the thread must end.
     bool rest(std::chrono::milliseconds least);
 

@@ -1,9 +1,9 @@
 // daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
-// After a scan the keeper examines every file of the catalog, in a thread of its own, and marks
-// missing files as gone. If the rows exceed their limit, it deletes the oldest rows of gone files.
-// If the configuration limits how long rows of gone files are kept, it deletes rows beyond that
-// limit once an hour. The work takes at most a tenth of the time, however often scans run.
+// After a scan the keeper examines every file that the catalog knows, in a thread of its own, and
+// marks missing files as gone. If there are more rows than the limit allows, it deletes the oldest
+// rows of gone files. If the configuration limits how long rows of gone files are kept, it deletes
+// older rows once an hour. This work takes at most a tenth of the time, however often scans run.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,8 +28,8 @@ class RowKeeper {
     explicit RowKeeper(Sink& sink, std::function<SteadyTime()> clock = steady_now)
         : sink_(sink), clock_(std::move(clock)) {}
 
-    // Call after each scan. Starts the work, unless it is running or resting. Rows of files that
-    // are gone are kept for `gone_rows_kept_for` after their last registration; 0: forever.
+    // Call it after each scan. Starts the work, unless the work is running or the keeper rests.
+    // Keeps rows of gone files for `gone_rows_kept_for` after their last registration; 0: forever.
     void look(SteadyTime now, std::chrono::milliseconds gone_rows_kept_for);
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the thread that works
 
@@ -42,8 +42,8 @@ class RowKeeper {
     const std::function<SteadyTime()> clock_;
     Pulse pulse_;
     SteadyTime began_{}, rested_{}, next_deletion_{};
-    // Returns how long the work took. Declared last, so that its destructor waits for the thread
-    // before the other members are destroyed.
+    // The work. Its result is how long it took. This member is declared last, so that its
+    // destructor waits for the thread before the other members are destroyed.
     std::future<SteadyTime::duration> work_;
 };
 

@@ -29,8 +29,8 @@ Status StateKeeper::hold() {
     auto lock = pipeline::InstanceLock::acquire(state_);
     if (!lock) return pass_on(lock);
     if (!lock_) {
-        // Nothing depends on the temporary files of a killed service, so a failure to remove one is
-        // ignored.
+        // Ignore a failure to remove temporary files of a killed service, because nothing depends
+        // on them.
         for (const std::filesystem::path& directory : {state_, catalog})
             (void)remove_temporaries(real_file_system(), directory);
     }

@@ -1,8 +1,8 @@
 // daemon/care/state_keeper.h -- makes the state directory and its catalog directory, and locks the
 // state. If somebody deletes the directories while the service runs, the keeper makes them again.
 //
-// Once the directories exist, the rest of the service restores their contents: databases with the
-// next files, the status when it is next published, the socket within 15 s.
+// Once the directories exist, the rest of the service makes their contents again: databases when
+// the next files come, the status when it is next published, the socket within 15 s.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -19,14 +19,14 @@ class StateKeeper {
   public:
     explicit StateKeeper(std::filesystem::path state) : state_(std::move(state)) {}
 
-    // Makes the directories that are missing, and takes the lock unless it is held and its file
-    // exists. The first call also removes temporary files that a killed service left. Errors:
-    // permission or io if a directory cannot be made; errors of the lock
+    // Makes the directories that are missing. Takes the lock unless this object holds it and the
+    // lock's file exists. The first call also removes temporary files that a killed service left.
+    // Errors: permission or io if a directory cannot be made; those of the lock
     // (pipeline/keep/instance_lock.h).
     [[nodiscard]] Status hold();
-    // Returns none while the catalog directory and the lock's file exist, else the result of
-    // hold(). If another service was started on a new state directory in the meantime, that service
-    // holds the lock (bad_argument).
+    // Returns none while the catalog directory and the lock's file exist. Otherwise returns the
+    // result of hold(). That is bad_argument if another service was started on a new state
+    // directory in the meantime, and so holds the lock.
     [[nodiscard]] std::optional<Status> look();
 
   private:

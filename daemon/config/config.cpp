@@ -36,8 +36,8 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // Remove the empty last part of "a/". With that part, the comparison would not find that "a/b"
-    // is within "a/".
+    // Remove the empty last part of a path such as "a/". With it, the comparison would not find
+    // that "a/b" is within "a/".
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -114,7 +114,7 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// Checks the rules of the grid library already here, so that a complaint names the line of the key.
+// Checks the rules of the grid library now, so that a complaint names the line of the key.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -143,7 +143,7 @@ void read_bunzip(TomlTable& ingest, IngestConfig& config) {
 }
 
 int processors() {
-    // Cache the number, because each turn of the service needs it and hardware_concurrency() reads
+    // Keep the number, because each turn of the service needs it, and hardware_concurrency() reads
     // a file.
     static const unsigned count = std::thread::hardware_concurrency();
     return std::max(1, static_cast<int>(count));
@@ -164,7 +164,7 @@ void read_moments(TomlTable& ingest, GridConfig& config) {
     }
 }
 
-// Reads how velocities are dealiased. Derived moments need it.
+// Reads how to dealias velocities, which derived moments need.
 void read_dealiasing(TomlTable& ingest, GridConfig& config) {
     const auto name = ingest.text("dealias");
     if (!name) return;
@@ -259,7 +259,8 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
     }
 }
 
-// Returns why the directory cannot be used for a machine's partials; empty if it can be used.
+// Returns the reason why the directory cannot be used for the partials of another machine. Returns
+// an empty text if it can.
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {
@@ -371,7 +372,7 @@ int ReloadableConfig::worker_count() const {
 
 std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
     std::vector<std::string> sentences;
-    // If the configuration gets a new part, this does not compile until the part has a sentence
+    // This does not compile if the configuration gets another part. Then write a sentence for it
     // below.
     const auto& [paths, grid, queue_limit, ingest, storage, status, partials] = fresh;
     if (paths != running.paths) {

@@ -33,8 +33,8 @@ namespace stormcellar::daemon {
 // The limit of the rows of all databases.
 inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
 
-// Returns the default limits: the file system may be at most 95 % full; bytes and age are
-// unlimited.
+// Returns the default limits. The file system may be at most 95 % full; bytes and age have no
+// limit.
 [[nodiscard]] cache::Budgets default_budgets();
 
 // The addresses at which the status is served (status_server.h).
@@ -44,12 +44,13 @@ struct StatusConfig {
     bool operator==(const StatusConfig&) const = default;
 };
 
-// Returns the path of status.sock: in the first directory of `runtime_directory` (the value of
-// systemd's $RUNTIME_DIRECTORY; null: not set), else in the state directory.
+// Returns the path of status.sock. It is in the first directory of `runtime_directory` (the value
+// of systemd's $RUNTIME_DIRECTORY; null: not set), or else in the state directory.
 [[nodiscard]] std::filesystem::path default_socket(const std::filesystem::path& state,
                                                    const char* runtime_directory);
 
-// The three directories: absolute, with symbolic links resolved; none is within another.
+// The three directories. They are absolute, with symbolic links resolved, and none is within
+// another.
 struct PathsConfig {
     std::filesystem::path drop;
     std::filesystem::path state = "/var/lib/stormcellar";
@@ -57,15 +58,16 @@ struct PathsConfig {
     bool operator==(const PathsConfig&) const = default;
 };
 
-// Grids to make, and the number of threads, with the same defaults as pipeline::IngestOptions.
+// The grids to make, and the number of threads. The defaults are the same as in
+// pipeline::IngestOptions.
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;  // for derived moments
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32
-    std::vector<pipeline::Domain> domains;  // mosaics to keep, beside each site's own grid
-    int threads = 1;                        // for decoding, and for gridding
+    std::vector<pipeline::Domain> domains;  // mosaics to keep in addition to each site's own grid
+    int threads = 1;                        // for decoding and for gridding
     bool operator==(const GridConfig&) const = default;
 };
 
@@ -78,27 +80,27 @@ struct IngestConfig {
     bool operator==(const IngestConfig&) const = default;
 };
 
-// The directories for other machines' partials of mosaics, one for each machine.
+// The directories into which other machines' partials of mosaics are copied, one for each machine.
 struct PartialsConfig {
     std::vector<std::filesystem::path> directories;  // absolute, with symbolic links resolved
     std::chrono::seconds late_after{600};
-    // The stations that a machine may bring, by the machine's name. A machine that is absent here
-    // may bring all stations that are not listed for another machine.
+    // The stations that each machine may bring, by the name of the machine. A machine without a
+    // list may bring all stations that no machine's list has.
     std::map<std::string, std::vector<std::string>> stations;
     [[nodiscard]] bool may_bring(const std::string& machine, const std::string& station) const;
     bool operator==(const PartialsConfig&) const = default;
 };
 
-// Storage of results in the catalog and the cache.
+// The limits of the catalog and the cache.
 struct StorageConfig {
     cache::Packing packing = cache::Packing::none;
-    // missing grids that are newer than this are made again; 0: none
+    // Missing grids that are newer than this are made again; 0: none.
     std::chrono::milliseconds refill{std::chrono::hours{6}};
     std::optional<std::uint64_t> catalog_bytes = default_catalog_bytes;  // none: no limit
     bool operator==(const StorageConfig&) const = default;
 };
 
-// The keys that take effect only at the start.
+// The keys that take effect only when the service starts.
 struct FixedConfig {
     PathsConfig paths;
     GridConfig grid;
@@ -110,16 +112,17 @@ struct FixedConfig {
     bool operator==(const FixedConfig&) const = default;
 };
 
-// The keys that a reload applies.
+// The keys that take effect when the configuration is read again.
 struct ReloadableConfig {
     int workers = 0;  // 0: one for each processor; see worker_count()
     std::chrono::milliseconds quiet{30'000};
     std::chrono::milliseconds reread{500};
     std::chrono::milliseconds rescan{60'000};
-    // time between scans while changes of some directories come without events
+    // Time between scans while some directories change without events.
     std::chrono::milliseconds poll{5'000};
     cache::Budgets budgets = default_budgets();
-    std::chrono::milliseconds gone_rows_kept_for{0};  // rows of files that are gone; 0: for ever
+    // Rows of missing files are kept for this time; 0: for ever.
+    std::chrono::milliseconds gone_rows_kept_for{0};
     std::string log_level = "info";
     std::vector<LoopConfig> loops;
     web::WebConfig web;  // for stormcellar-web; the daemon only checks it
@@ -128,23 +131,23 @@ struct ReloadableConfig {
     bool operator==(const ReloadableConfig&) const = default;
 };
 
-// The whole configuration. Every key is in one of these two parts. A reload replaces all of
-// `reloadable`, and reports the differences in `fixed`.
+// The whole configuration. Every key is in one of its two parts. A reload replaces all of
+// `reloadable`, and reports what has changed in `fixed`.
 struct Config {
     FixedConfig fixed;
     ReloadableConfig reloadable;
     bool operator==(const Config&) const = default;
 };
 
-// Returns a sentence for each part of `fresh` that differs from `running`, because a reload cannot
-// apply it. The sentence names the keys. Returns no sentences exactly if `fresh` equals `running`.
+// Returns a sentence for each part of `fresh` that differs from `running`. It names the keys, and
+// says that they need a restart. Returns no sentences if, and only if, `fresh` equals `running`.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 
-// Loads the configuration. Relative paths start at the directory of the file. Creates nothing;
-// directories need not exist. Scenes of loops must exist only if `scenes` is must_exist. Errors:
-// bad_argument, "FILE:LINE: [section] key: why", for unknown keys, wrong types, values out of range
-// and directories within one another.
+// Loads the configuration. Relative paths start at the directory of the file. Creates nothing.
+// Directories need not exist; the scenes of loops must exist if `scenes` is must_exist. Errors:
+// bad_argument, "FILE:LINE: [section] key: why", for unknown keys, wrong types, values out of
+// range, and directories within one another.
 [[nodiscard]] Result<Config> load_config(const std::filesystem::path& file,
                                          SceneFiles scenes = SceneFiles::as_named);
 

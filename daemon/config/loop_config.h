@@ -1,5 +1,5 @@
-// daemon/config/loop_config.h -- the [[loop]] tables of stormcellard.toml: animations that are kept
-// up to date.
+// daemon/config/loop_config.h -- the [[loop]] tables of stormcellard.toml. Each describes an
+// animation that the service keeps up to date.
 //
 // A scene file of stormcellar (docs/rendering.md) defines the pictures of a loop; the daemon does
 // not read it. The keys of [[loop]] override the same keys of the scene file.
@@ -23,7 +23,7 @@ struct LoopConfig {
     std::string name;                  // [A-Za-z0-9][A-Za-z0-9_-]{0,63}
     std::filesystem::path scene;       // empty: the defaults of `stormcellar loop`
     std::string domain;                // empty: the domain of the scene
-    int last = 0;                      // grids; 0: as in the scene
+    int last = 0;                      // number of newest grids to show; 0: as in the scene
     int seconds = 0;                   // display time of the newest frame; 0: as in the scene
     std::vector<std::string> outputs;  // absolute paths; empty: as in the scene
 
@@ -35,24 +35,24 @@ struct LoopState {
     bool is_running = false;
     std::uint64_t restarts = 0, made = 0;  // since the daemon started
     std::optional<UtcTime> last_made;
-    int frames = 0;            // of the last animation
-    std::string last_problem;  // why it last ended or did not start; empty: no problem yet
+    int frames = 0;            // in the last animation
+    std::string last_problem;  // why the loop last ended or did not start; empty: no problem yet
     bool operator==(const LoopState&) const = default;
 };
 
-// Says whether the scene files of loops must exist. A running service accepts a missing file: only
-// the loop of that scene stops and reports a problem.
+// Says whether the scene files of loops must exist. A running service accepts a missing file. Then
+// only the loop of that scene stops, and its problem is reported.
 enum class SceneFiles { as_named, must_exist };
 
-// Reads all [[loop]] tables. Invalid tables are reported and left out. Relative paths start at
-// `directory`; no output may be within a directory of `apart`.
+// Reads all [[loop]] tables. Reports invalid tables and leaves them out. Relative paths start at
+// `directory`. No output may be within one of the directories `apart`.
 [[nodiscard]] std::vector<LoopConfig> read_loops(TomlTable& root,
                                                  const std::filesystem::path& directory,
                                                  const std::vector<std::filesystem::path>& apart,
                                                  SceneFiles scenes = SceneFiles::as_named);
 
-// Returns the arguments with which `stormcellar` keeps the loop up to date, as a child of the
-// process `parent`.
+// Returns the arguments with which `stormcellar` keeps the loop up to date. It runs as a child of
+// the process `parent`.
 [[nodiscard]] std::vector<std::string> arguments_of(const LoopConfig& loop,
                                                     const std::filesystem::path& cache,
                                                     long parent);

@@ -19,7 +19,8 @@ namespace {
 
 constexpr timeval longest_wait{.tv_sec = 1, .tv_usec = 0};
 
-// Sends a datagram to `path`, with the bytes or with a descriptor. Returns 0 or errno.
+// Sends a datagram to the socket at `path`, with the bytes or with the descriptor `passed`. Returns
+// 0 or errno.
 int send_to(int socket, const std::filesystem::path& path, std::string_view bytes, int passed) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

@@ -1,10 +1,11 @@
 // daemon/log/journal.h -- writes entries with fields to systemd's journal.
 //
-// An entry is one datagram. A field is NAME=value and a newline; a value that contains a newline is
-// written as NAME, a newline, its length (8 bytes, little endian), the value and a newline. If an
-// entry is too long for a datagram, it is written to a sealed memory file whose descriptor is sent.
-// We do not call sd_journal_sendv(), because it uses a fixed socket and reports success even if
-// nobody listens there; the caller must then write the line somewhere else.
+// An entry is one datagram. A field is NAME=value and a newline. If the value contains a newline,
+// the field is NAME, a newline, the value's length (8 bytes, little endian), the value and a
+// newline. If an entry is too long for a datagram, it is written to a sealed memory file, and a
+// datagram sends the descriptor of that file. We do not call sd_journal_sendv(). It always uses the
+// same socket, and it reports success even if nobody listens there, but our caller must then write
+// the line somewhere else.
 //
 // Threads   send() may be called from any thread.
 // Source    systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).
@@ -21,8 +22,8 @@ namespace stormcellar::daemon {
 
 inline constexpr const char* journal_socket = "/run/systemd/journal/socket";
 
-// Names consist of capital letters, digits and "_" and begin with a letter; the journal drops other
-// fields. Values may be any bytes.
+// A field of an entry. Its name consists of capital letters, digits and "_" and begins with a
+// letter; the journal drops other fields. Its value may be any bytes.
 struct JournalField {
     std::string_view name;
     std::string value;
@@ -41,7 +42,7 @@ class Journal {
     [[nodiscard]] bool send_as_file(std::string_view entry) const;
 
     std::filesystem::path path_;
-    Descriptor descriptor_;  // closed: no socket could be opened
+    Descriptor descriptor_;  // closed if no socket could be opened
 };
 
 }  // namespace stormcellar::daemon

@@ -1,9 +1,10 @@
 // daemon/log/line_limiter.h -- limits the number of log lines of each kind, so that a hostile or
 // broken feed cannot fill the disk with them.
 //
-// A kind is an event of one subject (a station or a loop). In addition, all subjects of an event
-// share a limit. Lines over a limit are counted, and the count is logged at the end of the minute.
-// Memory is bounded: beyond `most_subjects` only the shared limit applies to new subjects.
+// A kind of line is an event of one subject (a station or a loop). Each kind has a limit, and all
+// subjects of an event share a second limit. Lines over a limit are counted, and the count is
+// logged at the end of the minute. Memory is bounded: beyond `most_subjects`, only the shared limit
+// applies to new subjects.
 //
 // Threads   Plain data: one thread at a time, or under a lock. The caller passes the current time.
 #pragma once
@@ -28,7 +29,7 @@ namespace stormcellar::daemon {
 class LineLimiter {
   public:
     static constexpr std::chrono::seconds period{60};
-    static constexpr std::size_t most_subjects = 512;  // of all events
+    static constexpr std::size_t most_subjects = 512;  // of all events together
     struct Most {
         int of_one, of_all;  // lines per period of one subject, and of all subjects together
     };
@@ -43,11 +44,11 @@ class LineLimiter {
     struct HeldBack {
         Event event;
         std::string subject;  // empty: several subjects, or none
-        LogLevel level;       // the most severe one
+        LogLevel level;       // the most severe level
         std::uint64_t lines;
     };
-    // For each kind, returns the number of lines held back in past minutes, and forgets that
-    // number.
+    // Returns the number of lines of each kind that were held back in past minutes, and forgets
+    // these numbers.
     std::vector<HeldBack> take_held_back(SteadyTime now);
     // Returns the number of remembered subjects.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }

@@ -6,7 +6,7 @@
 //   STORMCELLAR_STATION
 //   STORMCELLAR_VOLUME     ISO 8601 UTC
 //   STORMCELLAR_FILE       unchanged, any bytes
-//   STORMCELLAR_LATENCY_S  from the close of the file to the cache
+//   STORMCELLAR_LATENCY_S  from the close of the file until its grids are in the cache
 //   STORMCELLAR_TOOK_S     the work alone
 //   STORMCELLAR_LOOP, STORMCELLAR_DOMAIN
 //   STORMCELLAR_REASON     the kind of an error, as in the metrics
@@ -14,9 +14,9 @@
 // Otherwise lines go to stderr with time and level. If stderr is the journal but its socket accepts
 // nothing, lines go to stderr with the "<N>" level prefix of syslog.
 //
-// Lines above debug are limited (line_limiter.h). The caller passes names from outside through
-// printable() before it puts them into a message; members of About are escaped here where
-// necessary.
+// The number of lines above the level debug is limited (line_limiter.h). The caller passes names
+// from outside through printable() before it puts them into a message. Members of About are escaped
+// here where necessary.
 //
 // Threads   Call set_up_logging() before other threads start. Any thread may call the other
 //           functions.
@@ -44,8 +44,8 @@ struct LogOutlet {
     std::filesystem::path journal;      // the journal's socket; empty: lines go to stderr
     std::function<SteadyTime()> clock;  // empty: the steady clock
 };
-// Sets the outlet and the level: debug, info, warning or error. set_log_level() of service/log.h
-// changes the level later.
+// Sets where lines go, and the level: debug, info, warning or error. set_log_level() of
+// service/log.h changes the level later.
 void set_up_logging(std::string_view level, LogOutlet outlet = {});
 
 // Returns the journal with its usual socket if stderr is the journal, else stderr.
@@ -57,8 +57,9 @@ struct About {
     std::string station{};
     std::optional<UtcTime> volume{};
     std::filesystem::path file{};
-    std::optional<double> latency_s{};  // from the close of the file to the cache
-    std::optional<double> took_s{};     // the work alone
+    // From the close of the file until its grids are in the cache.
+    std::optional<double> latency_s{};
+    std::optional<double> took_s{};  // the work alone
     std::string loop{};
     std::string domain{};
     std::string_view reason{};
@@ -79,9 +80,9 @@ inline constexpr LogAt<LogLevel::info> log_info;
 inline constexpr LogAt<LogLevel::warning> log_warning;
 inline constexpr LogAt<LogLevel::error> log_error;
 
-// log_held_back() logs one line for each kind whose lines were held back in a minute that is over;
-// call it every few seconds. log_all_held_back() includes the current minute; call it at the end of
-// the program.
+// log_held_back() logs one line for each kind of which lines were held back in minutes that are
+// over; call it every few seconds. log_all_held_back() includes the current minute; call it when
+// the program ends.
 void log_held_back();
 void log_all_held_back();
 

@@ -3,7 +3,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// in the order of the enumeration
+// The names, in the order of the enumeration.
 constexpr std::array<std::string_view, event_count> names = {
     "ready",
     "not_ready",
@@ -75,7 +75,7 @@ std::string_view name_of(Event event) {
 }
 
 Event event_of(pipeline::IngestResult result) {
-    // in the order of the enumeration
+    // The events, in the order of the enumeration.
     constexpr std::array events = {Event::gridded,       Event::no_moment,  Event::no_position,
                                    Event::other_station, Event::incomplete, Event::rejected,
                                    Event::unchanged,     Event::vanished,   Event::registered};

@@ -24,7 +24,7 @@ enum class Event {
     reload_failed,
     reload_ignored,
     hang,
-    // about a file
+    // events of a file
     gridded,
     living,
     no_moment,
@@ -37,7 +37,7 @@ enum class Event {
     registered,
     store_failed,
     held_back,
-    // about the drop directory
+    // events of the drop directory
     watch_failed,
     directory_problem,
     overflow,
@@ -48,7 +48,7 @@ enum class Event {
     rows_deleted,
     behind,
     caught_up,
-    // about stored data
+    // events of stored data
     stations_unknown,
     state_lost,
     state_mended,
@@ -65,20 +65,20 @@ enum class Event {
     care_failed,
     sites_compared,
     site_fault,
-    // about loops
+    // events of loops
     loop_started,
     loop_made,
     loop_said,
     loop_ended,
     loop_failed,
-    // about other machines
+    // events of other machines
     partial_taken,
     partial_refused,
     partial_replaced,
     frame_problem,
     machine_late,
     machine_back,
-    // about the status
+    // events of the status
     status_answered,
     status_unanswered,
     status_unwritten,

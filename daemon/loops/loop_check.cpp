@@ -27,7 +27,7 @@ std::string without_speaker(const std::string& line) {
     return printable(line.starts_with(speaker) ? line.substr(speaker.size()) : line);
 }
 
-// Stores the first complaint that the program prints; notes do not count.
+// Stores the first line that the program prints and that is not a note.
 void take_complaint(Child& child, std::string& complaint) {
     for (const std::string& line : child.err.read()) {
         const std::string text = without_speaker(line);
@@ -62,7 +62,7 @@ Status check_loop(const LoopConfig& loop, const std::filesystem::path& cache,
 }
 
 bool is_known(const std::string& name, const std::vector<pipeline::Domain>& domains) {
-    // "north.KTLX" is a part of the domain "north".
+    // For the part "north.KTLX", check its domain "north".
     const std::string_view whole = cache::group_of(name);
     return find_station(name) || std::any_of(domains.begin(), domains.end(),
                                              [&](const auto& one) { return one.name == whole; });

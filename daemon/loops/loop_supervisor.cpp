@@ -18,8 +18,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-constexpr std::chrono::seconds time_to_end{3};    // after this a program is killed
-constexpr std::chrono::minutes long_enough{1};    // after this time a loop counts as stable
+constexpr std::chrono::seconds time_to_end{3};    // a program that runs longer is killed
+constexpr std::chrono::minutes long_enough{1};    // a loop that has run this long counts as stable
 constexpr std::chrono::seconds longest_rest{60};  // the longest sleep if nothing happens
 constexpr double most_frames = 1e9;               // fits in an int
 
@@ -133,7 +133,7 @@ void LoopSupervisor::dismiss(Slot& slot, SteadyTime now) {
 void LoopSupervisor::start_due(SteadyTime now) {
     for (Slot& slot : slots_) {
         if (slot.child || slot.is_leaving || now < slot.not_before) continue;
-        // A loop must not start before the old process of the same name has ended.
+        // A loop must wait until the old process of the same name has ended.
         const bool waits = std::any_of(slots_.begin(), slots_.end(), [&](const Slot& other) {
             return other.is_leaving && other.state.name == slot.state.name;
         });
@@ -180,7 +180,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
     if (!how.empty()) note_end(slot, how, now);
 }
 
-// Reads the JSON document that the program prints for each animation.
+// Reads a line on the program's output, which is a JSON document about an animation that it made.
 void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     const auto document = nlohmann::json::parse(line, nullptr, false);
     if (!document.is_object()) return;
@@ -189,7 +189,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
-    slot.last_line.clear();  // it concerned an earlier animation and would not explain a later end
+    slot.last_line.clear();  // it was about an earlier animation and would not explain a later end
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");
@@ -218,7 +218,7 @@ void LoopSupervisor::note_end(Slot& slot, const std::string& how, SteadyTime now
     }
     if (now - slot.started >= long_enough) slot.failures = 0;
     delay(slot, now);
-    // If a signal ended the program, its last line is not the reason.
+    // If a signal ended the program, its last line does not tell the reason.
     const bool was_killed = how.starts_with("signal");
     slot.state.last_problem =
         was_killed || slot.last_line.empty() ? how : fmt::format("{}: {}", how, slot.last_line);

@@ -2,10 +2,10 @@
 // --follow` for each of them.
 //
 // A loop runs as a separate program, so that a fault in drawing never stops ingest. If the program
-// ends, the supervisor logs its exit status and its last line on stderr, and starts it again: after
-// 1 s at first, then after delays that double up to 60 s. After a run of at least a minute, the
-// delay is 1 s again. The programs end with the daemon, however the daemon ends. The supervisor has
-// one thread, and starts it only if there are loops.
+// ends, the supervisor logs its exit status and its last line on stderr, and starts it again. The
+// first restart comes after 1 s; the delay doubles with each restart, up to 60 s. After a run of at
+// least a minute, the delay is 1 s again. The programs end with the daemon, however the daemon
+// ends. The supervisor has one thread, which it starts only if there are loops.
 //
 // Threads   One thread at a time. `wake` is called from the supervisor's own thread and must only
 //           signal.
@@ -38,16 +38,16 @@ class LoopSupervisor {
     LoopSupervisor& operator=(const LoopSupervisor&) = delete;
     ~LoopSupervisor();
 
-    // Sets the loops to run. A loop goes on undisturbed if neither it nor its scene file has
-    // changed.
+    // Sets the loops to run. If neither a loop nor its scene file has changed, the loop goes on
+    // undisturbed.
     void set(std::vector<LoopConfig> loops);
-    // Tells all programs to end, and returns at once. wait() and the destructor wait for their end,
-    // for a few seconds at most.
+    // Tells all programs to end, and returns at once. wait() and the destructor wait until the
+    // programs have ended, for a few seconds at most.
     void stop();
     void wait();
-    // pulse of the supervisor's thread; at rest if it has no thread
+    // Returns the pulse of the supervisor's thread; it is at rest if there is no thread.
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }
-    // Returns the states of all loops if they have changed since the last call, else none.
+    // Returns the states of all loops if a state has changed since the last call, else none.
     std::optional<std::vector<LoopState>> news();
 
   private:

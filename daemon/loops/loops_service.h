@@ -1,18 +1,18 @@
-// daemon/loops/loops_service.h -- a service that only keeps the [[loop]] tables: `stormcellard
-// --loops-only`.
+// daemon/loops/loops_service.h -- a service that only runs the loops of the [[loop]] tables:
+// `stormcellard --loops-only`.
 //
 // The service runs beside a stormcellard that was started with --no-loops, with a lower priority
-// and its own limits. It reads neither the drop directory nor the catalog nor grids. It runs the
+// and limits of its own. It reads neither the drop directory nor the catalog nor grids. It runs the
 // loops (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
 //                                  fields as in daemon/status/status.h; written at most once a
 //                                  second, and at the end
 //   STATE/loops/stormcellard.lock  locked while it runs, so that a state directory has only one
 //                                  keeper of loops
-// On SIGHUP it reads the configuration again, and applies only the [[loop]] tables and the log
-// level. It feeds the watchdog as long as no turn of the supervisor's thread takes too long.
+// On SIGHUP the service reads the configuration again, and applies only the [[loop]] tables and the
+// log level. It feeds the watchdog unless a turn of the supervisor's thread takes too long.
 //
-// Threads   run() once; request_stop() from any thread.
+// Threads   Call run() once; request_stop() may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -32,7 +32,8 @@ namespace stormcellar::daemon {
 
 class LoopsService {
   public:
-    // All must outlive the service. Without `signals`, only request_stop() ends the service.
+    // All of these must outlive the service. Without `signals`, only request_stop() ends the
+    // service.
     struct Parts {
         Notifier& notifier;
         FileSystem& file_system;
@@ -44,7 +45,7 @@ class LoopsService {
     void run();
     void request_stop();
 
-    // Returns the directory in which the service writes; it must exist.
+    // Returns the directory in which the service writes. The caller must make it.
     [[nodiscard]] static std::filesystem::path directory(const Config& config);
 
   private:

@@ -16,7 +16,8 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
-// Leaves the value unchanged if the key is missing or has another type.
+// Sets the value from the key. Leaves the value unchanged if the key is missing or has another
+// type.
 template <typename Value>
 void take(const Json& object, const char* key, bool (Json::*is_wanted)() const noexcept,
           Value& value) {

@@ -12,14 +12,13 @@
 
 namespace stormcellar::daemon {
 
-// Returns the loops of a document that loops_json() wrote; none if the document is invalid. All
-// loops are returned as not running, unless the `state` of the document is "running" and its
-// process exists.
+// Returns the loops of a document that loops_json() wrote; none if the document is invalid. Loops
+// count as running only if the `state` of the document is "running" and its process exists.
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
-// Returns each configured loop with its state from STATE/loops/status.json. A loop that is missing
-// in the file is returned as not running. If the file does not exist, or if the process that wrote
-// it is gone, all loops are returned as not running.
+// Returns each configured loop with its state from STATE/loops/status.json. A loop that the file
+// does not have counts as not running. If the file does not exist, or if the process that wrote it
+// is gone, no loop counts as running.
 [[nodiscard]] std::vector<LoopState> others_loops(const std::filesystem::path& state,
                                                   const std::vector<LoopConfig>& configured);
 

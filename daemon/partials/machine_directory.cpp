@@ -44,8 +44,8 @@ void MachineDirectory::file_closed(const fs::path& path, const FileStamp& stamp)
     look(path, stamp);
 }
 
-// Handles a hard link, or a file that is being written. If the file is incomplete, PartialsKeeper
-// checks it again later.
+// Handles a hard link, or a file that is still being written. If the file is incomplete,
+// PartialsKeeper checks it again later.
 void MachineDirectory::file_created(const fs::path& path, const FileStamp& stamp) {
     if (stamp.size_bytes > 0) look(path, stamp);
 }

@@ -2,7 +2,8 @@
 //
 // A partial is one site's grid for a mosaic. The directory has the layout of a cache. Files with
 // other names, such as temporary files of rsync, are ignored. This class writes nothing into the
-// directory. A partial is news until take_news() returns it, and again when its file is replaced.
+// directory. A partial is "news" until take_news() returns it, and becomes news again when its file
+// is replaced.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,15 +29,14 @@ class MachineDirectory final : public WatchListener {
     [[nodiscard]] std::string name() const { return directory_.filename().native(); }
     [[nodiscard]] int descriptor() const { return events_->descriptor(); }
     void read_events() { watcher_.read_events(); }
-    // Reads the whole directory. Fails if it cannot be read.
+    // Looks at all files of the directory. Fails if the directory cannot be read.
     Status scan();
     // Returns true if a scan is needed, because events were lost since the last call or directories
     // were not read.
     bool take_lost() { return std::exchange(is_lost_, false); }
     [[nodiscard]] bool is_blind() const { return watcher_.is_blind(); }
 
-    // Returns the newest partial that is news; none if there is no news. The returned partial is no
-    // longer news.
+    // Returns the newest partial that is news, or none. The partial is then no longer news.
     std::optional<cache::GridName> take_news();
     // Makes the next scan report the partial as news again.
     void forget(const cache::GridName& name) { seen_.erase(name); }
@@ -44,7 +44,7 @@ class MachineDirectory final : public WatchListener {
     void refuse(const cache::GridName& name);
     // Returns true if the machine has the partial, and it was not refused.
     [[nodiscard]] bool has(const cache::GridName& name) const;
-    // Returns the partials that were seen, without news and without refused ones.
+    // Returns the partials that were seen and are neither news nor refused.
     [[nodiscard]] std::vector<cache::GridName> known() const;
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;

@@ -124,7 +124,7 @@ void PartialsKeeper::scan(Machine& machine) {
     take_lost(machine);
 }
 
-// Makes the next scan report partials again that the cache would keep but has lost.
+// Makes the next scan report partials that the cache would keep but has lost.
 void PartialsKeeper::take_lost(Machine& machine) {
     for (const cache::GridName& name : machine.directory->known()) {
         pulse_.beat();
@@ -136,7 +136,7 @@ void PartialsKeeper::take_lost(Machine& machine) {
     }
 }
 
-// Ingests the newest waiting partial of each machine. Returns true if any partial waited.
+// Ingests the newest waiting partial of each machine. Returns true if a partial waited.
 bool PartialsKeeper::take_one() {
     bool took = false;
     std::exception_ptr failure;
@@ -157,8 +157,8 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
-// Makes one frame again if it lacks a partial. Returns true if it looked at a frame without
-// failing.
+// Looks at one frame that may lack a partial, and makes it again if it does. Returns true if there
+// was such a frame and this did not fail.
 bool PartialsKeeper::mend_one() {
     if (stopping_ || steady_now() < next_mending_) return false;
     pulse_.beat();
@@ -182,7 +182,7 @@ bool PartialsKeeper::mend_one() {
     return true;
 }
 
-// Returns true if this machine has the partial's domain and would keep its grid.
+// Returns true if this machine has the partial's domain and its cache would keep the grid.
 bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
     return !of_.mosaics.is_idle() &&
            of_.mosaics.find(cache::group_of(name.domain), name.moment) != nullptr &&
@@ -190,7 +190,7 @@ bool PartialsKeeper::is_wanted(const cache::GridName& name) const {
 }
 
 // Checks that the machine may bring the station. Each station of a mosaic takes a descriptor, and
-// time in every frame, so a machine must not invent stations.
+// time in every frame, so machines must not invent stations.
 Status PartialsKeeper::check_station(const Machine& machine, const cache::GridName& name,
                                      const std::string& station) const {
     if (!config_.may_bring(machine.facts.name, station))
@@ -244,9 +244,9 @@ void PartialsKeeper::take(Machine& machine, const cache::GridName& name) {
               name.domain, format_utc(name.time), kept->frames.size(), 1000 * seconds_since(start));
 }
 
-// Reports that a partial of one machine replaced a partial of another machine. Machines with the
-// same files bring the same partials, so two partials of a complete volume differ only if the files
-// differ or a machine sends wrong data.
+// Reports that a partial of one machine has replaced a partial of another machine. Machines that
+// have the same files bring the same partials. So two partials of a complete volume differ only if
+// the machines had different files or one sends wrong data.
 void PartialsKeeper::note_rival(Machine& machine, const cache::GridName& name, bool won) {
     for (Machine& other : machines_) {
         if (&other == &machine || !other.directory->has(name)) continue;
@@ -279,7 +279,7 @@ void PartialsKeeper::refuse(Machine& machine, const cache::GridName& name, const
 void PartialsKeeper::judge() {
     std::optional<UtcTime> newest;
     for (Machine& machine : machines_) {
-        // A volume from the future must not make other machines late.
+        // Ignore a volume with a time in the future, because it would make other machines late.
         machine.facts.newest = of_.sources->newest_of(machine.facts.name);
         if (machine.facts.newest) machine.facts.newest = std::min(*machine.facts.newest, now_utc());
         if (machine.facts.newest)
@@ -301,8 +301,8 @@ void PartialsKeeper::judge() {
                         machine.facts.name, why);
         if (!is_late && machine.facts.is_late)
             log_info({Event::machine_back}, "machine {} has caught up", machine.facts.name);
-        // `why` counts seconds, so update it only with is_late: the status need not change every
-        // second.
+        // `why` counts seconds. Update it only when is_late changes, so that the status does not
+        // change every second.
         if (is_late != machine.facts.is_late) machine.facts.why = why;
         machine.facts.is_late = is_late;
     }

@@ -1,26 +1,25 @@
 // daemon/partials/partials_keeper.h -- ingests partials of mosaics from the directories of other
 // machines, in a thread of its own.
 //
-// The keeper copies each partial into the cache once it is complete, and makes the frames that
-// the partial changes, the newest partial first. It checks a damaged or truncated file again when
-// the file changes. If the file was written less than 30 s ago, the keeper also checks it again at
-// the next scan. If the cache has lost a partial, the keeper copies it again. While no partials
-// wait, it checks the frames around older partials, and makes a frame again if the frame lacks one
-// of its partials.
+// The keeper copies each complete partial into the cache, the newest first, and makes the frames
+// that the partial changes. It checks a damaged or truncated file again when the file changes, and
+// at the next scan if the file was written less than 30 s ago. If the cache has lost a partial, the
+// keeper copies the partial again. While no partials wait, the keeper looks at the frames around
+// older partials, and makes a frame again if it lacks one of its partials.
 //
 // A partial is accepted if its station is known, as for raw files ([ingest] stations), or is listed
-// for its machine or its mosaic. A station that [partials.stations] lists for some machines is
-// accepted only from those machines. If machines bring different partials of a volume, the better
-// partial counts, so that the frames do not depend on the order of arrival. If a partial replaces a
-// partial of another machine, the log and the status say so.
+// for its machine or its mosaic. If [partials.stations] lists a station for some machines, only
+// these machines may bring it. If machines bring different partials of a volume, the better partial
+// counts, so that the frames do not depend on the order of arrival. If a partial replaces another
+// machine's partial, the log and the status say so.
 //
-// A machine is late while it has brought nothing for `late_after`, or while its newest volume is
-// older by `late_after` than the newest volume of any machine. The log, the status and the metrics
-// report this. The frames decide separately, for each instant, which machines are late
-// (pipeline/options/partial_sources.h).
+// A machine is late if it has brought nothing for `late_after`, or if its newest volume is older by
+// `late_after` than the newest volume of any machine. The log, the status and the metrics report
+// late machines. Frames do not use this; for each frame's instant,
+// pipeline/options/partial_sources.h decides which machines are late.
 //
-// Threads   facts(), scans() and pulse() from any thread. The destructor waits for the partial that
-//           is being taken, with its frames.
+// Threads   facts(), scans() and pulse() may be called from any thread. The destructor waits until
+//           the present partial, and the frames with it, are done.
 #pragma once
 
 #include <atomic>
@@ -44,27 +43,28 @@ struct PartialsOf {
     pipeline::MosaicMaker& mosaics;
     const cache::StoreWriter& store;  // of the mosaics
     std::shared_ptr<const pipeline::PartialSources> sources;
-    std::shared_ptr<StationRule> stations;  // knows stations beyond the station table
+    // Accepts stations, also stations beyond the station table.
+    std::shared_ptr<StationRule> stations;
     int threads = 1;
 };
 
 struct PartialsTimes {
     std::chrono::milliseconds rescan{60'000};
-    std::chrono::milliseconds poll{5'000};  // between scans of directories without events
+    std::chrono::milliseconds poll{5'000};  // between scans of directories that give no events
 };
 
 class PartialsKeeper {
   public:
-    // Starts the thread, unless there are no directories. The objects that `of` refers to must
-    // outlive the keeper.
+    // Starts the thread, unless there are no directories. The objects in `of` must outlive the
+    // keeper.
     PartialsKeeper(PartialsConfig config, PartialsOf of, PartialsTimes times);
     PartialsKeeper(const PartialsKeeper&) = delete;
     PartialsKeeper& operator=(const PartialsKeeper&) = delete;
     ~PartialsKeeper();
 
     [[nodiscard]] std::vector<MachineFacts> facts() const;
-    // Returns the number of scans of the directory that was scanned least often. A scan counts when
-    // the turn that made it has ended.
+    // Returns how often the directory that was scanned least was scanned. A scan counts once the
+    // turn that made it has ended.
     [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 
@@ -96,7 +96,7 @@ class PartialsKeeper {
     const PartialsOf of_;
     const PartialsTimes times_;
     std::vector<Machine> machines_;  // used only by the thread
-    bool has_more_ = false;          // used only by the thread; news wait
+    bool has_more_ = false;          // used only by the thread; true: more news waits
     SteadyTime next_mending_{};      // used only by the thread
     mutable Mutex mutex_;
     std::vector<MachineFacts> published_ STORMCELLAR_GUARDED_BY(mutex_);

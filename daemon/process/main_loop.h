@@ -1,5 +1,5 @@
-// daemon/process/main_loop.h -- functions that main loops share, to take signals, to sleep, and to
-// feed the watchdog.
+// daemon/process/main_loop.h -- functions with which main loops take signals, sleep, and feed the
+// watchdog.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -17,15 +17,15 @@
 namespace stormcellar::daemon {
 
 // Takes all pending signals and calls `reload` for each SIGHUP. Any other signal asks the service
-// to end: logs that signal and returns true. If `signals` is null, returns false.
+// to end: then logs the signal and returns true. Returns false if `signals` is null.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
-// Sleeps until a descriptor is ready, `until` has come, or a signal interrupts the sleep. Ignores
+// Sleeps until a descriptor is ready, the time `until` has come, or a signal arrives. Ignores
 // negative descriptors.
 void poll_until(std::span<pollfd> sources, SteadyTime now, SteadyTime until);
 
-// Feeds the watchdog if that is due, unless the oldest step has lasted too long. Logs once that the
-// step hangs.
+// Feeds the watchdog if that is due. If the oldest step has lasted too long, does not feed it, and
+// logs once that the step hangs.
 void feed(WatchdogFeed& watchdog, Notifier& notifier, SteadyTime now,
           const std::optional<Step>& oldest);
 

@@ -9,7 +9,7 @@ namespace stormcellar::daemon {
 Status can_write_in(FileSystem& files, const std::filesystem::path& directory) {
     const std::filesystem::path probe =
         directory / fmt::format(".stormcellar-tmp-ready-{}", ::getpid());
-    (void)files.remove(probe);  // left by a killed process with the same number
+    (void)files.remove(probe);  // a killed process with the same number may have left it
     const Result<int> made = files.create_exclusive(probe);
     if (!made) return pass_on(made);
     files.close(*made);

@@ -1,7 +1,7 @@
 // daemon/process/readiness.h -- checks that the service has everything it needs to report READY.
 //
 // READY means that the state and the cache can be written, and that the status is served. Programs
-// that wait for READY (systemd, or a script that starts LDM next) rely on this. Until then the
+// that wait for READY (systemd, or a script that then starts LDM) rely on this. Until then the
 // service works as far as it can, reports what is missing, and checks again every second. READY
 // does not wait for the drop directory, which belongs to LDM and may appear late.
 //
@@ -23,23 +23,23 @@ namespace stormcellar::daemon {
 
 class Readiness {
   public:
-    // Times between checks. The first times are short, because a failed check may succeed soon, for
-    // example once a thread has begun to listen.
+    // Times between checks. The first times are short, because a failed check may succeed soon: for
+    // example, a thread may be about to listen.
     static constexpr std::chrono::milliseconds first_wait{20}, longest_wait{1000};
 
-    // Returns an error that says what is missing, or ok.
+    // Returns ok, or an error that says what is missing.
     using Check = std::function<Status()>;
     void need(Check check) { checks_.push_back(std::move(check)); }
 
     [[nodiscard]] bool is_ready() const { return is_ready_; }
     // Returns when to check again; none once everything is there.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // If it is time, calls the checks up to the first error, whose message becomes missing(), and
-    // returns true. Otherwise returns false.
+    // If a check is due, calls the checks until one fails, and returns true. missing() then returns
+    // the message of that error. If no check is due, returns false.
     bool look(SteadyTime now);
     [[nodiscard]] const std::string& missing() const { return missing_; }
-    // Returns true if missing() has changed since is_news() last returned true. Returns false while
-    // the waits are still short, because the problem may be over at once.
+    // Returns true if missing() has changed since this function last returned true. Returns false
+    // while the times between checks are still short, because the problem may be over at once.
     [[nodiscard]] bool is_news();
 
   private:

@@ -1,11 +1,11 @@
-// daemon/process/silent_file_systems.h -- file systems whose directories can change without inotify
-// events.
+// daemon/process/silent_file_systems.h -- knows the file systems whose directories can change
+// without inotify events ("silent" file systems).
 //
-// The kernel reports changes made on this machine. It does not see writes of other machines to a
+// The kernel reports changes that this machine makes. It does not see other machines' writes to a
 // shared file system, or changes made by a program behind FUSE, so such directories must be polled.
-// The kernel also does not report files that are written directly into a layer of an overlay, below
-// the mount. An overlay does not count as silent here, since most writers use its mount; rescans
-// find the other files.
+// If a file is written directly into a layer of an overlay, below the mount, the kernel does not
+// report that either. But an overlay does not count as silent, because most programs write to its
+// mount; rescans find the other files.
 //
 // Threads   Pure: may be called from any thread.
 // Source    statfs(2), linux/magic.h, and the headers of the projects in the table.
@@ -18,11 +18,11 @@
 
 namespace stormcellar::daemon {
 
-// Returns the name of a silent file system by its type from statfs(2); none if the file system is
-// not known to be silent.
+// Returns the name of the silent file system that has this type in statfs(2). Returns none if the
+// type is not known to be silent.
 [[nodiscard]] std::optional<std::string_view> silent_file_system(std::uint32_t type);
-// Returns the name of the file system of a directory if that file system is silent; none if it is
-// not known to be silent, or if statfs(2) fails.
+// Returns the name of the directory's file system if it is silent. Returns none if it is not known
+// to be silent, or if statfs(2) fails.
 [[nodiscard]] std::optional<std::string_view> silent_file_system_of(
     const std::filesystem::path& directory);
 

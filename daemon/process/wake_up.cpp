@@ -13,7 +13,8 @@ WakeUp::WakeUp() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (!descriptor_.is_open()) throw std::system_error(errno, std::system_category(), "eventfd");
 }
 
-// These calls fail only if the counter is full (the event is set) or empty (the event is clear).
+// This write fails only if the counter is full, and then the event is set already. The read below
+// fails only if the counter is empty, and then the event is clear.
 void WakeUp::set() {
     const std::uint64_t one = 1;
     [[maybe_unused]] const ssize_t written = ::write(descriptor(), &one, sizeof one);

@@ -68,7 +68,7 @@ std::optional<GrowingFiles::Due> GrowingFiles::decide(const std::filesystem::pat
         if (quiet) return Due{path, file.last, true};
         return std::nullopt;
     }
-    // If a file is empty, its writer has probably just begun.
+    // An empty file has probably just been created, and its writer has not written yet.
     const bool settled = now - file.changed_at >= settle && file.last.size_bytes > 0;
     const bool is_first = !file.incomplete && file.last.size_bytes > 0;
     const bool overdue = now - file.since >= (is_first ? std::min<Duration>(quiet_, busy) : quiet_);
@@ -99,7 +99,8 @@ GrowingFiles::Files::iterator GrowingFiles::look_at(Files::iterator entry, Stead
 std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& look) {
     std::vector<Due> due;
     if (files_.empty() || now < next_poll_) return due;
-    // Poll all files once a second, in parts, so that the caller never waits for a whole round.
+    // Poll all files once a second. Divide this round into parts, so that the caller never waits
+    // for a whole round.
     if (looks_left_ == 0) {
         looks_left_ = std::min(files_.size(), most_looks);
         next_round_ = now + settle;

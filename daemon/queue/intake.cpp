@@ -14,20 +14,21 @@ namespace ended = pipeline::ended;
 
 constexpr std::size_t most_growing = 4096;
 constexpr std::size_t most_going_on = 4096;
-// problems reported in one pass of the main loop; the next scan reports the rest
+// Number of problems that one pass of the main loop may report; the next scan reports the rest.
 constexpr std::size_t most_problems = 64;
 constexpr std::size_t most_told = 4096;
 constexpr std::int64_t recent_ns = 1'000'000'000;
-// a file that a scan finds is live if it is younger than this
+// If a scan finds a file that is younger than this, the file is live.
 constexpr std::int64_t live_ns = 600 * recent_ns;
 
-// Returns the same key for all files of one volume.
+// Returns a key that all files of one volume share.
 std::string volume_of(const std::filesystem::path& path) {
     auto chunk = pipeline::ChunkPath::of(path);
     return chunk ? std::move(chunk->key) : path.native();
 }
 
-// Returns true if the job gridded or registered a volume, or the volume shows sweeps and goes on.
+// Returns true if the job gridded or registered a volume, or if it showed sweeps of a volume that
+// goes on.
 bool is_good(const Finished& finished) {
     if (!finished.taken) return false;
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
@@ -72,8 +73,8 @@ void Intake::leave_to_scan(const std::filesystem::path& path) {
     seen_.forget(path);
 }
 
-// Notes whether the volume of the file goes on: it has closed sweeps but no end yet. Jobs of such a
-// volume come before jobs of new volumes.
+// Notes whether the file's volume is going on, which means that it has closed sweeps but no end
+// yet. Jobs of such a volume come before jobs of new volumes.
 void Intake::note_going_on(const std::filesystem::path& path, bool goes_on) {
     if (!goes_on) {
         going_on_.erase(volume_of(path));
@@ -92,13 +93,14 @@ void Intake::note_displaced() {
     }
 }
 
-// Makes a job. A followed file was registered in the catalog when following began.
+// Makes a job for the file. A followed file is in the catalog since following began.
 Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     Job job;
     job.path = path;
     const bool is_followed = followed_.contains(path);
     job.urgency = urgency;
-    // A last chunk is urgent: if the volume could not be followed, its grid waits for that chunk.
+    // Treat the last chunk of a volume as urgent: if the volume could not be followed, its grid
+    // waits for that chunk.
     const auto chunk = pipeline::ChunkPath::of(path);
     const bool is_end = chunk && chunk->name.kind == level2::ChunkKind::end;
     job.is_begun = is_end || going_on_.contains(volume_of(path));
@@ -135,8 +137,8 @@ void Intake::hold(Job& job) {
     job.newest_ns = 0;
 }
 
-// Returns the time of a close, never earlier than the last close, so that files keep their order
-// even if the wall clock is set back.
+// Returns the time of a close. It is never earlier than the last close, so that files keep their
+// order even if the wall clock is set back.
 std::int64_t Intake::closed_now_ns() {
     const std::int64_t now_ns = clock_.wall_ns();
     newest_closed_ns_ = now_ns >= newest_closed_ns_ ? now_ns : newest_closed_ns_ + 1;
@@ -162,19 +164,19 @@ void Intake::file_created(const std::filesystem::path& path, const FileStamp& st
 }
 
 void Intake::file_found(const std::filesystem::path& path, const FileStamp& stamp) {
-    if (growing_.contains(path)) return;  // its stamp is read every second anyway
+    if (growing_.contains(path)) return;  // growing_ reads its stamp every second anyway
     if (seen_.contains(path, stamp)) {
         seen_.found_again(path);
         return;
     }
-    // A file that was just written is probably still being written.
+    // If the file was just written, its writer is probably still writing.
     const std::int64_t age_ns = clock_.wall_ns() - stamp.modified_ns;
     if (age_ns >= 0 && age_ns < recent_ns) {
         file_created(path, stamp);
     } else {
         const bool is_live = age_ns >= -live_ns && age_ns < live_ns;
         Job job = job_for(path, is_live ? Urgency::live : Urgency::backlog);
-        // A time in the future must not take precedence over files that are closed now.
+        // A time in the future must not put this file before files that are closed now.
         job.newest_ns = std::min(stamp.modified_ns, clock_.wall_ns());
         offer(std::move(job), stamp);
     }
@@ -192,8 +194,8 @@ void Intake::file_gone(const std::filesystem::path& path) {
 }
 
 // Handles a directory that is gone. If it was moved away, the kernel does not report its files.
-// Followed files are known by path and handled here; other files are known only by hash, so a scan
-// must follow, after which RowKeeper marks their rows.
+// Followed files are known by path, and are handled here. Other files are known only by hash, so a
+// scan must follow; then RowKeeper marks their rows.
 void Intake::directory_gone(const std::filesystem::path& path, bool deleted) {
     std::vector<std::filesystem::path> gone;
     const auto is_below = [&](const std::filesystem::path& file) {
@@ -254,8 +256,8 @@ void Intake::poll_growing() {
     }
 }
 
-// Handles a job that failed: puts it back for another attempt. After the last attempt, or if too
-// many jobs wait for an attempt, leaves the file to the next scan.
+// Handles a job that failed. Puts it back for another attempt. After the last attempt, or if too
+// many jobs already wait for another attempt, leaves the file to the next scan.
 void Intake::job_failed(const Finished& finished) {
     const ErrorCode code = finished.taken.error().code;
     const bool was_last = finished.job.failures + 1 >= most_tries && !is_shortage(code);
@@ -268,7 +270,7 @@ void Intake::job_failed(const Finished& finished) {
     }
 }
 
-// Queues the job again, in the backlog, so that live jobs come first.
+// Queues the job again. Puts it into the backlog, so that live jobs come first.
 void Intake::give_next_turn(const Finished& finished) {
     schedule_.finished(finished.job.path);
     Job job = job_for(finished.job.path, Urgency::backlog);
@@ -277,9 +279,9 @@ void Intake::give_next_turn(const Finished& finished) {
     offer(std::move(job), finished.taken->stamp);
 }
 
-// Notes that the chunk `by` now represents the volume instead of `former`, which must no longer be
-// polled. Jobs may be collected in a different order than they ran: if the job of `former` is not
-// collected yet, relieved_ keeps job_ended() from adding it again.
+// Notes that the chunk `by` now represents the volume instead of the chunk `former`, which must no
+// longer be polled. If the job of `former` is not collected yet, relieved_ keeps job_ended() from
+// adding `former` again; jobs may be collected in another order than they ran.
 void Intake::note_represented(const std::filesystem::path& former,
                               const std::filesystem::path& by) {
     if (former.empty() || former == by) return;
@@ -317,7 +319,7 @@ void Intake::job_ended(const Finished& finished) {
 }
 
 // Puts a job back after an attempt to register its file, or ends the job if the file is gone. If
-// the attempt failed, ingesting the file registers it.
+// the attempt failed, the file is registered when it is ingested.
 void Intake::registered(const Finished& noted) {
     if (noted.taken && std::holds_alternative<ended::Vanished>(noted.taken->ingest.ending)) {
         job_ended(noted);

@@ -2,7 +2,7 @@
 //
 // The intake owns the list of files already seen (seen_files.h), the files that are not complete
 // yet (growing_files.h) and the schedule, and keeps the three consistent. If one of the three is
-// full, the intake forgets a file, and needs_scan() says when a scan must find that file again. So
+// full, the intake forgets a file. needs_scan() then says when a scan must find that file again, so
 // no file is lost.
 //
 // Threads   One thread at a time.
@@ -29,7 +29,7 @@
 
 namespace stormcellar::daemon {
 
-// The steady clock measures durations; the wall clock orders files by age.
+// The steady clock measures durations. The wall clock gives the ages of files.
 struct Clock {
     std::function<SteadyTime()> steady;
     std::function<std::int64_t()> wall_ns;  // since the epoch
@@ -40,14 +40,14 @@ class Intake final : public WatchListener {
   public:
     Intake(const Config& config, Clock clock);
 
-    // Limit of the attempts to ingest a file, which take about two minutes. Attempts do not end
-    // while they fail because the system is short of disk, memory or descriptors.
+    // Number of attempts to ingest a file, which take about two minutes in all. Attempts that fail
+    // because the system is short of disk, memory or descriptors do not count.
     static constexpr int most_tries = 8;
 
-    // Delays files that were being ingested when the process last ended: each waits for the given
-    // time from now, and comes last in the backlog.
+    // Delays files that were being ingested when the process last ended. Each waits for the given
+    // time from now, and then comes last in the backlog.
     void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
-    // Applies the waiting times and the number of workers of a reloaded configuration.
+    // Applies a reloaded configuration: the waiting times and the number of workers.
     void reload(const ReloadableConfig& config);
 
     void file_closed(const std::filesystem::path& path, const FileStamp& stamp) override;
@@ -68,45 +68,45 @@ class Intake final : public WatchListener {
     void drop_vanished() override;
     void directory_problem(const Error& error) override;
 
-    // Call when the catalog may have lost rows of ingested files. Makes a scan due, which then
-    // offers all files again.
+    // Call it when the catalog may have lost rows of ingested files. A scan is then due, and offers
+    // all files again.
     void forget_seen();
 
-    // Offers the growing files that are due.
+    // Offers the growing files that are due to the schedule.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
-    // Returns a job that has waited for some time without being in the catalog.
+    // Returns a job that has waited for some time and is not in the catalog yet.
     std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
 
-    // Call begin_scan() before a scan of the watcher and end_scan() after it. `whole` says that the
-    // drop directory could be read.
+    // Call begin_scan() before a scan of the watcher, and end_scan() after it. `whole` is true if
+    // the drop directory could be read.
     void begin_scan();
     void end_scan(bool whole);
-    // Returns true if events were lost, directories were left to a scan, the drop directory
-    // vanished, files were refused and the queue is less than half full now, or it is time to retry
-    // entries that could not be examined.
+    // Returns true if a scan is needed: events were lost; directories were left to a scan; the drop
+    // directory vanished; files were refused and the queue is less than half full now; or it is
+    // time to look again at entries that could not be examined.
     [[nodiscard]] bool needs_scan() const;
-    // Returns when to retry entries that could not be examined: after a second, then after delays
-    // that double up to a minute; none if there are no such entries.
+    // Returns when to look again at entries that could not be examined. The first time is after a
+    // second; the delay doubles up to a minute. Returns none if there are no such entries.
     [[nodiscard]] std::optional<SteadyTime> look_again_at() const { return look_again_at_; }
 
-    // Returns when there is something to do: to poll growing files, to start a job if `can_start`,
-    // or to register a file if `can_register`.
+    // Returns when there is next something to do: to poll growing files, to start a job (if
+    // `can_start`), or to register a file (if `can_register`).
     [[nodiscard]] std::optional<SteadyTime> next_time(bool can_start, bool can_register) const;
     [[nodiscard]] Pending pending() const;
     [[nodiscard]] std::vector<GrowingFiles::Wait> growing_waits(std::size_t most) const {
         return growing_.waits(clock_.steady(), most);
     }
-    // Returns the longest wait of all jobs that may run now; 0 if there are none.
+    // Returns the longest wait of the jobs that may run now, or 0 if there are none.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
     // Returns how often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
     // Returns how often an entry could not be examined since the last call.
     std::uint64_t take_unseen() { return std::exchange(unseen_, 0); }
-    // Returns problems of directories, and of entries that are not files (not_a_file). A problem is
-    // returned only once, as long as every scan finds it again.
+    // Returns problems of directories, and of entries that are not files (not_a_file). A problem
+    // that every scan finds again is returned only once.
     std::vector<Error> take_directory_problems() { return std::exchange(problems_, {}); }
 
   private:
@@ -115,11 +115,11 @@ class Intake final : public WatchListener {
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
-    // Returns the station that a path names if its data are accepted; else empty.
+    // Returns the station that the path names. Returns an empty text if its data are not accepted.
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);
-    // Leaves files that lost their places to the next scan.
+    // Notes that the next scan must find the files that lost their places.
     void note_displaced();
     void note_represented(const std::filesystem::path& former, const std::filesystem::path& by);
     void note_going_on(const std::filesystem::path& path, bool goes_on);
@@ -137,21 +137,22 @@ class Intake final : public WatchListener {
     Schedule schedule_;
     GrowingFiles growing_;
     SeenFiles seen_;
-    // Growing files whose jobs read only the new data, so that these jobs need not wait.
+    // Growing files that are followed. Their jobs read only the new data, so these jobs need not
+    // wait.
     std::set<std::filesystem::path> followed_;
-    // Chunks whose job is not collected yet, each with the chunk that now represents their volume.
+    // Chunks whose jobs are not collected yet, each with the chunk that now represents the volume.
     std::map<std::filesystem::path, std::filesystem::path> relieved_;
     // Volumes that have closed sweeps: paths of files, and keys of volumes in chunks
     // (pipeline/drop/chunk_path.h).
     std::unordered_set<std::string> going_on_;
-    bool refused_ = false;  // something had no room since the last scan began
+    bool refused_ = false;  // a file had no room since the last scan began
     bool lost_ = false;
     std::uint64_t overflows_ = 0, unseen_ = 0;
     std::optional<SteadyTime> look_again_at_;
     int looks_in_vain_ = 0;
     bool is_looking_again_ = false;  // the current scan retries entries that could not be examined
     std::vector<Error> problems_;
-    SeenFiles told_;                     // reported problems, by their text
+    SeenFiles told_;                     // problems that were reported, by their text
     std::int64_t newest_closed_ns_ = 0;  // time of the last close, since the epoch
 };
 

@@ -80,7 +80,7 @@ void* ReadyJobs::take_old(Backlog& backlog, const MayBegin& may_begin) {
     return nullptr;
 }
 
-// Takes a live job of the first class that has both turns left and a job that may begin.
+// Takes a live job from the first class that has turns left and a job that may begin.
 void* ReadyJobs::take_of_round(const MayBegin& may_begin) {
     for (Turns& turns : live_) {
         if (turns.left == 0) continue;

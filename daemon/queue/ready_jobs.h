@@ -1,21 +1,22 @@
-// daemon/queue/ready_jobs.h -- chooses which of the ready jobs runs next.
+// daemon/queue/ready_jobs.h -- chooses the job that runs next among the jobs that are ready.
 //
 // A job is LIVE if its file changed while we watched, or less than ten minutes ago. All other jobs
-// are the BACKLOG. Live jobs have four classes, each with this many turns in a round:
-//   going on   known station, a volume of which sweeps have closed       8
+// are the BACKLOG. There are four classes of live jobs. In each round, a class gets this many
+// turns:
+//   going on   known station; sweeps of the volume have closed           8
 //   fresh      other files of known stations, reported by an event       4
 //   found      other files of known stations, found by a scan or a poll  1
 //   others     no known station                                          1
-// The backlog is served when no live job may begin: first files of known stations, then other
+// A job of the backlog runs if no live job may begin: first files of known stations, then other
 // files, each newest first. While live jobs wait, the backlog of known stations gets one turn in
 // seventeen. So a flood of new volumes does not delay a volume that is going on, unknown names do
 // not delay known stations, and every class of live jobs makes progress.
 //
-// Within a class of live jobs, stations take turns; a station that is served goes to the end of the
-// line. So no station can hold up another station, however much it sends. In the class "going on",
-// jobs of a station are served oldest first, so that the end of a volume comes before sweeps of the
-// next volume: the end is little work, and would otherwise wait as long as new chunks arrive. All
-// other jobs are served newest first. This class only does bookkeeping.
+// Within a class of live jobs, stations take turns: after its turn, a station goes to the end of
+// the line. So no station can hold up another, however much it sends. In the class "going on", the
+// jobs of a station run oldest first, so that the end of a volume comes before sweeps of the next
+// volume. The end is little work, and newest first would make it wait as long as new chunks arrive.
+// All other jobs run newest first. This class only keeps the order; it runs nothing.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -40,18 +41,18 @@ class ReadyJobs {
         bool is_begun = false;       // class "going on"; only for live jobs
         std::int64_t newest_ns = 0;  // since the epoch
         std::uint64_t sequence = 0;  // different for all jobs; breaks ties
-        // the station whose turn the job takes; all unknown stations share the empty name
+        // The station whose turn the job takes; empty for all unknown stations.
         std::string station;
         bool is_told = true;  // an event reported the file; only for live jobs
     };
 
     void add(const Key& key, void* job);
-    // Replaces the key of a job in one step, so that a station keeps its turn even if this is its
-    // only job.
+    // Replaces the key of a job in one step. So a station keeps its place in line even if this is
+    // its only job.
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
-    // Removes and returns the next job of a station for which `may_begin` is true (null: any
-    // station); null if there is none. Tries at most most_looked_at jobs of each backlog.
+    // Removes and returns the next job whose station passes `may_begin` (null: every station).
+    // Returns null if there is none. Looks at no more than most_looked_at jobs of each backlog.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});
@@ -72,9 +73,9 @@ class ReadyJobs {
     };
     // The live jobs of one class.
     struct Turns {
-        std::unordered_map<std::string, Station> stations;  // stations that have jobs
+        std::unordered_map<std::string, Station> stations;  // only stations that have jobs
         std::map<std::uint64_t, std::string> turns;
-        int left = 0;  // turns in this round
+        int left = 0;  // turns left in this round
     };
     enum class Class : std::size_t { going_on, fresh, found, others };
     static constexpr std::array<int, 4> turns_a_round = {8, 4, 1, 1};

@@ -6,7 +6,7 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Time to wait if all ready jobs are of stations that may not use another worker now.
+// Time to wait if every ready job is of a station that may not use another worker now.
 constexpr std::chrono::milliseconds look_at_shares{50};
 
 }  // namespace
@@ -47,7 +47,7 @@ void Schedule::enqueue(Entry& entry) {
 Schedule::Worth Schedule::worth_of(const Job& job, std::uint64_t place) {
     int kind = 0;
     if (job.urgency == Urgency::live) kind = job.is_begun ? 3 : job.closed_at ? 2 : 1;
-    return {kind, job.newest_ns, ~place};  // among equal jobs, the last one is dropped first
+    return {kind, job.newest_ns, ~place};  // among equal jobs, the last is worth least
 }
 
 void Schedule::claim(const Entry& entry) {
@@ -87,7 +87,7 @@ bool Schedule::make_room_for(const Job& job) {
     return true;
 }
 
-// Handles a file that is offered again while it waits.
+// Handles a file that is offered again while its job waits.
 void Schedule::wait_again(Entry& entry, const Job& job) {
     const bool was_ready = entry.job.not_before == SteadyTime{};
     const ReadyJobs::Key old = key_of(entry);
@@ -131,8 +131,8 @@ Offered Schedule::offer(Job job, SteadyTime now) {
     return Offered::queued;
 }
 
-// Sets the time since which a delayed job counts as waiting: when it may run, not when it was
-// offered.
+// Sets the time since which a job counts as waiting. For a delayed job, this is the time from which
+// it may run.
 void Schedule::wait_since(Entry& entry, SteadyTime time) {
     const bool was_unregistered = unregistered_.erase(entry.place) > 0;
     waiting_.erase(entry.place);

@@ -1,8 +1,8 @@
 // daemon/queue/seen_files.h -- remembers which files were already offered, so that a scan offers
 // only new and changed files.
 //
-// A file takes about 24 bytes, since only hashes of its path and its stamp are kept. Two paths with
-// the same 64-bit hash would hide each other; among a million files the odds of such a pair are 1
+// Only hashes of the path and the stamp are kept, about 24 bytes for a file. If two paths had the
+// same 64-bit hash, one would hide the other. Among a million files, the odds of such a pair are 1
 // in 37 million.
 //
 // Threads   One thread at a time.
@@ -25,8 +25,8 @@ class SeenFiles {
     void forget_all() { files_.clear(); }
     [[nodiscard]] std::size_t count() const { return files_.size(); }
 
-    // Call begin_scan() before a scan and end_scan() after a complete one. end_scan() forgets files
-    // that were neither found nor added in between.
+    // Call begin_scan() before a scan and end_scan() after a complete scan. end_scan() forgets the
+    // files that were neither found nor added since begin_scan().
     void begin_scan() { ++scan_; }
     void found_again(const std::filesystem::path& path);
     void end_scan();

@@ -1,6 +1,6 @@
-// daemon/queue/sink.h -- the interface through which the service processes files, so that tests of
-// the service need no radar data. Thread contract: several workers call take() at once, but never
-// for the same path.
+// daemon/queue/sink.h -- the interface through which the service processes files. Tests implement
+// it to test the service without radar data. Thread contract: several workers call take() at once,
+// but never for the same path.
 #pragma once
 
 #include <chrono>
@@ -27,19 +27,20 @@ struct Taken {
 
 // The state of the catalog.
 struct CatalogState {
-    // Stations whose databases cannot be used now, and why. The station is empty for the database
-    // of files of unknown stations.
+    // Stations whose databases cannot be used now, and why. The database for files of unknown
+    // stations has an empty name here.
     std::vector<std::pair<std::string, std::string>> troubles;
     std::string rule;                  // "known", "any" or "listed"
     std::vector<std::string> further;  // other stations that the rule "any" has accepted
     std::size_t most_further = 0;      // limit of `further`
-    // Databases of stations that the rule does not accept: their number, and the first names.
+    // Databases whose stations the rule does not accept: their number, and the first names.
     std::size_t left_alone = 0;
     std::vector<std::string> some_left_alone;
     bool operator==(const CatalogState&) const = default;
 };
 
-// The result of a roll of the cache, and the contents of the cache afterward, if they are known.
+// The result of a roll of the cache (an eviction down to the budgets), and what the cache then
+// holds, if that is known.
 struct CacheRolled {
     cache::RollReport report;
     std::optional<cache::StoreUsage> usage;
@@ -47,10 +48,10 @@ struct CacheRolled {
 
 class Sink : public Interface {
   public:
-    // Ingests a file. A faulty file gives a rejected outcome. An error means that the file could
-    // not be ingested for another reason (for example, the catalog or the cache cannot be written),
-    // and should be tried again. If `tries` says that this is the last attempt, rejects the file
-    // instead, provided that the rejection can be stored.
+    // Ingests a file. If the file is faulty, the outcome is `rejected`. An error means that the
+    // file could not be ingested for another reason (for example, the catalog or the cache cannot
+    // be written), and should be tried again. If `tries` says that this is the last attempt,
+    // rejects the file instead, provided that the rejection can be stored.
     virtual Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
                                pipeline::Tries tries) = 0;
     // Returns the files that were being ingested when the process last ended, and how long each
@@ -58,23 +59,24 @@ class Sink : public Interface {
     [[nodiscard]] virtual std::map<std::filesystem::path, std::chrono::seconds> waits() const {
         return {};
     }
-    // Handles a file that must wait, without reading it: registers it in the catalog, or marks its
-    // rows as gone if it does not exist. Returns `gone` if nothing is left to do, and `stands` if
-    // the file must still be ingested; that includes a missing file for which chunks of a volume
-    // wait. May run beside take() for other paths.
+    // Handles a file that must wait, without reading it. Registers the file in the catalog. If the
+    // file does not exist, marks its rows as gone. Returns `gone` if nothing is left to do, else
+    // `stands`: the file must still be ingested. A missing file must also be ingested if chunks of
+    // a volume wait for it. May run beside take() for other paths.
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
         return pipeline::Noted::stands;
     }
-    // Call with true while more files wait than the workers can soon ingest, so that optional work
-    // is left out.
+    // Call it with true while more files wait than the workers can soon ingest. Optional work is
+    // then left out.
     virtual void set_pressed(bool /*pressed*/) {}
-    // Long functions call this now and then, from the thread that runs them, to show progress.
+    // Long functions call this now and then, from their own thread, to show that they make
+    // progress.
     using OnStep = std::function<void()>;
     // Marks known files that no longer exist as gone, and returns the number of these files. Call
     // after a scan. May run beside take().
     virtual Result<int> mark_missing(const OnStep& step) = 0;
-    // Deletes rows of files that are gone and were last registered before `before`. Returns how
-    // many. May run beside take().
+    // Deletes the rows of gone files that were last registered before `before`, and returns their
+    // number. May run beside take().
     virtual Result<int> forget_gone(UtcTime /*before*/, const OnStep& /*step*/) { return 0; }
     // Deletes the oldest rows of gone files if all rows exceed their limit. Returns the number of
     // deleted rows. May run beside take().
@@ -86,11 +88,11 @@ class Sink : public Interface {
     virtual CacheRolled roll_cache(const cache::Budgets& /*budgets*/, const OnStep& /*step*/) {
         return {};
     }
-    // Returns an error if the catalog or the cache cannot be written now. Called until it succeeds
-    // once.
+    // Returns an error if the catalog or the cache cannot be written now. The service calls it
+    // until it succeeds once.
     [[nodiscard]] virtual Status can_store() { return {}; }
     // Returns one printable line for each damage that was found and repaired since the last call.
-    // If there are any, the files of the drop directory must be offered again. May be called beside
+    // If there are any, all files of the drop directory must be offered again. May be called beside
     // the other functions.
     virtual std::vector<std::string> take_repairs() { return {}; }
 };

@@ -19,11 +19,11 @@ namespace {
 
 constexpr std::uint64_t most_tried_bytes = std::uint64_t{1} << 20;
 
-// Files that ran together are tried at different times, so that the file that ends the process runs
-// alone.
+// Files that ran together when the process ended are tried again at different times, so that the
+// file that ends the process runs alone.
 constexpr std::chrono::seconds apart{10};
 
-// Reads a number and the blank behind it.
+// Reads a number and the blank after it.
 std::optional<std::int64_t> take_number(std::string_view& text) {
     std::int64_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -87,7 +87,7 @@ void TriedFiles::write() {
 std::map<std::filesystem::path, std::chrono::seconds> TriedFiles::waits() const {
     const MutexLock lock(mutex_);
     std::map<std::filesystem::path, std::chrono::seconds> waits;
-    std::map<int, int> before;  // number of earlier files, by how often each ended the process
+    std::map<int, int> before;  // number of earlier files that have ended the process equally often
     for (const auto& [path, tried] : tried_) {
         if (tried.ends < most_ends)
             waits[path] = wait_after(tried.ends) + apart * before[tried.ends]++;

@@ -29,7 +29,7 @@ bool WorkShares::may_begin(const std::string& station, Time now) const {
 }
 
 void WorkShares::begun(const std::string& station, Time now) {
-    // Drop accounts without debt, which say nothing.
+    // Drop accounts without debt, because they have no effect.
     if (!accounts_.contains(station))
         std::erase_if(accounts_, [&](const auto& entry) { return owed(entry.second, now) == 0; });
     ++running_[station];

@@ -1,13 +1,13 @@
 // daemon/queue/work_shares.h -- limits how many workers a station may use.
 //
-// A job cannot be interrupted, and its file determines how long it takes. So that slow files cannot
-// occupy all workers, one worker is reserved for light stations. A station is light if one of its
-// files was gridded or showed a sweep within the last hour, and if it owes at most two seconds.
-// Each job adds the time that it took to the debt of its station; the debt decreases by a fifth of
-// a second each second. (A site of a real feed takes half a second every five minutes.) All other
-// stations together use at most all workers but one. A single light station also uses at most all
-// workers but one. If there is only one worker, it serves every station. All unknown stations count
-// as one station, which is never light. This class only does bookkeeping.
+// A job cannot be interrupted, and its file determines how long it takes. To keep slow files from
+// occupying all workers, one worker is reserved for light stations. A station is light if one of
+// its files was gridded or showed a sweep within the last hour, and if its debt is at most two
+// seconds. Each job adds the time that it took to the debt of its station. The debt decreases by a
+// fifth of a second each second. (A site of a real feed takes half a second every five minutes.)
+// All other stations together use at most all workers but one, and so does a single light station.
+// If there is only one worker, it serves every station. All unknown stations count as one station,
+// which is never light. This class only counts; it runs nothing.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -29,13 +29,13 @@ class WorkShares {
     // Returns true if a job of the station (empty: an unknown station) may begin now.
     [[nodiscard]] bool may_begin(const std::string& station, Time now) const;
     void begun(const std::string& station, Time now);
-    // Notes that a job of the station has ended after `took`. `is_good`: the job gridded or showed
-    // data.
+    // Notes that a job of the station has ended and took the time `took`. `is_good` is true if the
+    // job gridded or showed data.
     void ended(const std::string& station, Time::duration took, bool is_good, Time now);
 
   private:
     struct Account {
-        double owed_s = 0;  // at `since`
+        double owed_s = 0;  // debt at the time `since`
         Time since{};
     };
     [[nodiscard]] static double owed(const Account& account, Time now);

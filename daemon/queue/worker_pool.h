@@ -1,7 +1,7 @@
 // daemon/queue/worker_pool.h -- threads that ingest files or register them in the catalog.
 //
-// The caller submits a job only if a worker is free, so no jobs queue up here. If a job throws an
-// exception, the job fails with that error, and its worker goes on.
+// The caller submits a job only if a worker is free, so no jobs queue up here. If processing throws
+// an exception, the job fails with that error, and its worker goes on.
 //
 // Threads   One thread owns the pool. `wake` is called from the workers and must only signal.
 #pragma once
@@ -28,7 +28,7 @@ struct Finished {
 
 class WorkerPool {
   public:
-    // Processes a job; called from all workers.
+    // Processes a job. It is called from all workers.
     using Work = std::function<Result<Taken>(const Job&)>;
 
     WorkerPool(Work work, const char* thread_name, int workers, std::function<void()> wake);
@@ -36,26 +36,28 @@ class WorkerPool {
     WorkerPool& operator=(const WorkerPool&) = delete;
     ~WorkerPool();  // waits for the running jobs
 
-    // Changes the number of workers. Additional threads start at once; surplus threads end after
-    // their current job.
+    // Changes the number of workers. Additional threads start at once. Surplus threads end after
+    // their present job.
     void resize(int workers);
     [[nodiscard]] bool has_free_worker() const;
     void submit(Job job);  // call it only if a worker is free
     // Returns the jobs that have ended since the last call.
     std::vector<Finished> collect();
-    // Returns the file of the job that has run longest; none if all workers are idle.
+    // Returns the file of the job that has run longest, with its start; none if all workers are
+    // idle.
     struct Oldest {
         std::filesystem::path path;
         SteadyTime since;
     };
     [[nodiscard]] std::optional<Oldest> oldest() const;
-    // Starts no more jobs. Returns true if the running jobs ended within `within`.
+    // Starts no more jobs. Returns true if the running jobs have ended within `within`.
     bool drain(std::chrono::milliseconds within);
 
   private:
     struct Begun {
         Job job;
-        std::multimap<SteadyTime, std::filesystem::path>::iterator entry;  // of running_
+        // The entry of running_ for this job.
+        std::multimap<SteadyTime, std::filesystem::path>::iterator entry;
     };
     void work();
     std::optional<Begun> wait_for_job();

@@ -8,8 +8,8 @@
 namespace stormcellar::daemon {
 namespace {
 
-// Returns true if the cache must keep the newest grid of the group. It need not keep grids of
-// stations that the rule "any" accepted, because those may not be real.
+// Returns true if the cache must keep the newest grid of the group. The cache need not keep grids
+// of stations that the rule "any" accepted, because such stations may not be real.
 bool is_known_group(std::string_view group, const StationRule& stations) {
     if (cache::is_known_group(group)) return true;
     return stations.kind() == StationRule::Kind::listed && stations.knows(group);
@@ -67,7 +67,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // much less than the time after which the watchdog takes a step for a hang
+    // This is much less than the time after which the watchdog assumes that a step hangs.
     options.archive_turn = std::chrono::seconds{20};
     options.living.has_time = [pressed = pressed_] { return !*pressed; };
     return options;
@@ -150,7 +150,8 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        taken.ingest.ending = pipeline::ended::Vanished{};  // another file now has its name
+        // The file that now has this name is another one.
+        taken.ingest.ending = pipeline::ended::Vanished{};
         return taken;
     }
     if (tried_.is_given_up(path, found.stamp)) return give_up(path, std::move(taken));

@@ -1,5 +1,5 @@
-// daemon/service/ingest_sink.h -- the real sink: catalog, grids and cache through
-// pipeline/ingest/ingest.h.
+// daemon/service/ingest_sink.h -- the sink of the real service: stores files in catalog and cache
+// through pipeline/ingest/ingest.h.
 //
 // Threads   Several workers call take() at once, but never for the same path (daemon/queue/sink.h).
 #pragma once
@@ -19,7 +19,7 @@ namespace stormcellar::daemon {
 
 class IngestSink final : public Sink {
   public:
-    // Opens STATE/catalog and the cache for writing, and makes them if they are missing.
+    // Opens STATE/catalog and the cache for writing. Makes them if they are missing.
     static Result<std::unique_ptr<IngestSink>> open(const Config& config);
 
     Result<Taken> take(const std::filesystem::path& path, bool finish_as_is,
@@ -43,10 +43,10 @@ class IngestSink final : public Sink {
     [[nodiscard]] Status can_store() override;
     std::vector<std::string> take_repairs() override;
 
-    // For the caretaker, which works beside take().
+    // Returns the catalog for the caretaker, which works beside take().
     [[nodiscard]] catalog::CatalogWriter& catalog() { return catalog_; }
     [[nodiscard]] const cache::StoreReader& store() const { return store_; }
-    // For the keeper of partials.
+    // Returns the cache for the keeper of partials.
     [[nodiscard]] const cache::StoreWriter& writer() const { return store_; }
     [[nodiscard]] pipeline::MosaicMaker& mosaics() { return ingestor_.mosaics(); }
     [[nodiscard]] const std::shared_ptr<StationRule>& stations() const { return stations_; }

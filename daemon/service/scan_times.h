@@ -1,8 +1,8 @@
 // daemon/service/scan_times.h -- decides when the drop directory is scanned.
 //
 // Scans take at most about a tenth of the time, however often they are requested. A regular scan
-// runs every rescan_seconds. If the watcher gets no events of some directories, further scans
-// (polls) run in between. Thread contract: one thread.
+// runs every rescan_seconds. If some directories give the watcher no events, further scans (polls)
+// run in between. Thread contract: one thread.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace stormcellar::daemon {
 
 class ScanTimes {
   public:
-    // Returns true if a scan is due. `is_needed` requests a scan as soon as the rest after the last
-    // scan is over.
+    // Returns true if a scan is due. If `is_needed` is true, a scan is due as soon as the rest
+    // after the last scan is over.
     [[nodiscard]] bool is_due(SteadyTime now, bool is_needed) const {
         return now >= next_ || (is_needed && now >= rested_);
     }
@@ -23,8 +23,8 @@ class ScanTimes {
     [[nodiscard]] SteadyTime next() const { return next_; }
     [[nodiscard]] SteadyTime rested() const { return rested_; }
 
-    // Notes when a scan began and ended. The next scan is due after `gap`, but not before the rest
-    // is over.
+    // Notes when a scan began and ended. The next scan is due after the time `gap`, but not before
+    // the rest is over.
     void scanned(SteadyTime began, SteadyTime ended, SteadyTime::duration gap) {
         const SteadyTime::duration rest = rest_factor * (ended - began);
         rested_ = ended + std::max<SteadyTime::duration>(least_gap, rest);

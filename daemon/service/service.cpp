@@ -22,8 +22,8 @@ constexpr std::chrono::milliseconds between_memory_looks{250};
 // Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
-// Returns how much free memory the process keeps for reuse; further free memory goes back to the
-// system. Volumes that are decoded one after another leave less free memory than this.
+// Returns how many bytes of free memory the process keeps for reuse. It gives more than that back
+// to the system. Decoding volumes one after another leaves less free memory than this.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
@@ -109,8 +109,8 @@ void Service::start() {
 }
 
 // Reports READY once the service is ready. If that takes longer than TimeoutStartSec, systemd
-// starts the service again, so the machine's boot does not wait forever for a disk that does not
-// come.
+// starts the service again, so that the boot of the machine does not wait forever for a missing
+// disk.
 void Service::get_ready() {
     if (!readiness_.look(parts_.clock.steady())) return;
     if (!readiness_.is_ready()) {
@@ -225,7 +225,7 @@ void Service::scan_if_due() {
     if (scan_times_.is_due(parts_.clock.steady(), intake_.needs_scan())) scan();
 }
 
-// Starts waiting jobs. Called now and then during long work: a scan of many files takes seconds, a
+// Starts waiting jobs. Long work calls this now and then: a scan of many files takes seconds, and a
 // burst of events a tenth of a second.
 void Service::keep_workers_busy() {
     collect();
@@ -287,7 +287,8 @@ void Service::look_at_catalog(SteadyTime now) {
     if (catalog_trouble_.look(now, parts_.sink, status_)) status_file_.changed();
 }
 
-// Reports a job. If a job fails because a database is in trouble, only the trouble is logged, once.
+// Reports a job. If a job failed because a database is in trouble, logs only the trouble, and only
+// once.
 void Service::report(const Finished& finished) {
     if (!finished.taken) {
         catalog_trouble_.look_soon();

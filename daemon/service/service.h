@@ -2,7 +2,7 @@
 //
 // One thread does all the bookkeeping (events, schedule, logs, status); the workers only ingest
 // files. The main thread polls for signals, directory events and ended jobs, and sleeps until
-// something is due.
+// something is due. It reacts as follows:
 //   start            scans the drop directory and queues the files there; reports READY once state,
 //                    cache and sockets answer (readiness.h). Until then it ingests what it can. It
 //                    does not wait for the drop directory: if that is missing, the status reports
@@ -11,11 +11,11 @@
 //                    again)
 //   SIGHUP           the configuration is read again; paths, grid and queue limit stay until a
 //                    restart
-// Loops run as other programs, which end with the service (daemon/loops/loop_supervisor.h), unless
-// another process runs the loops. A separate thread brings the cache within its budgets every few
+// Loops run as other programs, which end with the service (daemon/loops/loop_supervisor.h), or
+// another process runs them. A separate thread brings the cache within its budgets every few
 // seconds.
 //
-// Threads   run() once; request_stop(), is_idle() and sites_compared() from any thread.
+// Threads   Call run() once. Any thread may call request_stop(), is_idle() and sites_compared().
 #pragma once
 
 #include <atomic>
@@ -51,7 +51,7 @@
 
 namespace stormcellar::daemon {
 
-// All must outlive the service.
+// The parts of the service. All must outlive it.
 struct ServiceParts {
     Sink& sink;
     EventSource& events;
@@ -60,9 +60,11 @@ struct ServiceParts {
     const Signals* signals = nullptr;  // null: only request_stop() ends the service
     Clock clock = real_clock();
     bool runs_loops = true;  // false: another process runs them (daemon/loops/loops_service.h)
-    StatusBoard* board = nullptr;       // null: the status is published only in its file
-    StateKeeper* state = nullptr;       // null: a state directory that is deleted is not made again
-    std::filesystem::path socket = {};  // the status socket; only reported in the status
+    StatusBoard* board = nullptr;  // null: the status is published only in its file
+    // Null: if the state directory is deleted, it is not made again.
+    StateKeeper* state = nullptr;
+    // Path of the status socket, which is only reported in the status.
+    std::filesystem::path socket = {};
     // Returns the machines that bring partials of mosaics; empty: there are none.
     std::function<std::vector<MachineFacts>()> machines = {};
 };
@@ -90,8 +92,8 @@ class Service {
     void sites_compared(pipeline::PairReport report);
     // Adds a check that must succeed before READY. Call it before run().
     void need(Readiness::Check check) { readiness_.need(std::move(check)); }
-    // Adds a thread whose hang must stop the feeding of the watchdog. Call before run(); the pulse
-    // must exist until run() has returned.
+    // Adds a thread to watch: if the thread hangs, the watchdog is no longer fed. Call it before
+    // run(). The pulse must exist until run() has returned.
     void watch(std::string who, const Pulse& pulse) { pulses_.watch(std::move(who), pulse); }
 
   private:
@@ -127,14 +129,14 @@ class Service {
     Watcher watcher_;
     StatusBook status_;
     StatusFile status_file_;
-    Pending published_;  // as last published
+    Pending published_;  // the counts that were last published
     WatchdogFeed watchdog_;
     Pulses pulses_;
     WakeUp wake_up_;
     std::atomic<bool> stop_requested_ = false;
     std::atomic<bool> idle_ = false;
     Mutex compared_mutex_;
-    // Reports that are not in the log and the status yet.
+    // Reports that have not been written to the log and the status yet.
     std::vector<pipeline::PairReport> compared_ STORMCELLAR_GUARDED_BY(compared_mutex_);
     Readiness readiness_;
     DropTrouble drop_trouble_;
@@ -146,8 +148,8 @@ class Service {
     SteadyTime next_held_back_{}, next_memory_look_{};
     WorkerPool pool_;  // near the end: its threads, and the registrar's, use the members above
     WorkerPool registrar_;
-    // The last members: their destructors wait for their threads before the other members are
-    // destroyed.
+    // These are the last members, because their destructors wait for their threads before the other
+    // members are destroyed.
     RowKeeper row_keeper_;
     CacheKeeper cache_keeper_;
     LoopSupervisor loop_keeper_;

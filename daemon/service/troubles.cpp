@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::seconds between_state_looks{1}, between_backlog_looks{1},
     between_loops_looks{5}, between_catalog_looks{1}, behind_after{20};
-constexpr std::size_t most_waits_named = 5;  // in the status
+constexpr std::size_t most_waits_named = 5;  // number of waiting files that the status names
 
 std::string named(const std::string& station) {
     return station.empty() ? std::string{"the files of no known station"} : station;
@@ -129,8 +129,8 @@ void BacklogTrouble::look(SteadyTime now, const Intake& intake, StatusBook& stat
     }
 }
 
-// Adds loops that another process runs to this process's status, because `stormcellard
-// --loops-only` serves no metrics.
+// Copies the state of loops that another process runs into the status of this process, because
+// `stormcellard --loops-only` serves no metrics.
 bool OthersLoops::look(SteadyTime now, const std::filesystem::path& state,
                        const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status) {
     if (now < next_) return false;

@@ -1,8 +1,9 @@
-// daemon/service/troubles.h -- troubles that may last for a while. The log reports most of them
-// when they begin and when they are over; the status shows a trouble as long as it lasts.
+// daemon/service/troubles.h -- watches for troubles that may last for a while. The log reports most
+// of them when they begin and when they are over; the status shows a trouble as long as it lasts.
 //
-// Each class remembers if the log has reported its trouble. The service may call look() at every
-// turn; each class limits how often it really checks. Thread contract: the service's thread.
+// Each class remembers whether the log has reported its trouble. The service may call look() at
+// every turn, because each class limits how often it really checks. Thread contract: the service's
+// thread.
 #pragma once
 
 #include <chrono>
@@ -19,17 +20,17 @@
 
 namespace stormcellar::daemon {
 
-// The drop directory cannot be read.
+// The trouble that the drop directory cannot be read.
 class DropTrouble {
   public:
-    // Takes the result of a scan.
+    // Notes the result of a scan.
     void scanned(const Status& scanned, const std::filesystem::path& drop, StatusBook& status);
 
   private:
     bool is_lost_ = false;
 };
 
-// The state directory was deleted and cannot be made again.
+// The trouble that the state directory was deleted and cannot be made again.
 class StateTrouble {
   public:
     // Returns true if the directory was made again.
@@ -40,19 +41,20 @@ class StateTrouble {
     bool is_lost_ = false;
 };
 
-// A database that cannot be used.
+// The trouble that a database cannot be used.
 class CatalogTrouble {
   public:
     // Returns true if the status changed.
     bool look(SteadyTime now, Sink& sink, StatusBook& status);
-    // Makes the next look() check at once, because a file could not be stored.
+    // Makes the next look() check at once. Call it when a file could not be stored.
     void look_soon() { next_ = {}; }
 
   private:
     SteadyTime next_{};
 };
 
-// More files come than the service can ingest. While that lasts, the log says so once a minute.
+// The trouble that more files come than the service can ingest. As long as it lasts, the log says
+// so once a minute.
 class BacklogTrouble {
   public:
     void look(SteadyTime now, const Intake& intake, StatusBook& status);
@@ -62,11 +64,11 @@ class BacklogTrouble {
     bool is_behind_ = false;
 };
 
-// Two processes run the same loops. If only another process runs the loops, look() copies the state
-// that this process reports into the status.
+// The trouble that two processes run the same loops. If only another process runs the loops, look()
+// copies the state that this process reports into the status.
 class OthersLoops {
   public:
-    // `runs_loops`: this process runs loops. Returns true if the status changed.
+    // Returns true if the status changed. `runs_loops` is true if this process runs loops.
     bool look(SteadyTime now, const std::filesystem::path& state,
               const std::vector<LoopConfig>& loops, bool runs_loops, StatusBook& status);
 

@@ -12,10 +12,10 @@
 namespace stormcellar::daemon {
 namespace {
 
-// memory for a request's line and headers, and for the headers of its answer
+// Memory for the line and the headers of a request, and for the headers of its answer.
 constexpr std::size_t request_memory = 8192;
 
-// Checks every Host field, because a client that sends two such fields may mean either of them.
+// Checks every Host field of a request, because a client that sends two may mean either.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
         !is_loopback_host(value == nullptr ? "" : value)) {
@@ -102,7 +102,7 @@ std::optional<SteadyTime> HttpListener::next_time(SteadyTime now) const {
 }
 
 // Closes the oldest connection if three quarters of the allowed connections are open. Requests are
-// answered at once, so the oldest connection has most likely sent no request.
+// answered at once, so the oldest connection has most likely sent no request yet.
 void HttpListener::make_room() {
     const auto stands = [](const auto& one) { return !one.second.is_cut; };
     const auto standing = std::count_if(open_.begin(), open_.end(), stands);
@@ -118,15 +118,15 @@ void HttpListener::make_room() {
 }
 
 void HttpListener::turn(SteadyTime now) {
-    // Shut down connections whose time is over; libmicrohttpd notices their end and closes them.
+    // Shut down connections whose time is over. libmicrohttpd notices that and closes them.
     for (auto& [connection, open] : open_) {
         if (open.is_cut || open.ends > now) continue;
         ::shutdown(open.descriptor, SHUT_RDWR);
         open.is_cut = true;
     }
-    // A run of libmicrohttpd accepts few new connections, and none at the limit. Connections that
-    // end in a run make room only for the next run, and no descriptor signals that, so run it until
-    // nothing changes.
+    // A run of libmicrohttpd accepts only a few new connections, and none at the limit. Connections
+    // that end in a run make room only for the next run, and no descriptor signals that. So run it
+    // until nothing changes.
     is_behind_ = true;
     for (int round = 0; is_behind_ && round < most_rounds; ++round) {
         const std::uint64_t before = changes_;

@@ -1,7 +1,7 @@
 // daemon/status/http_listener.h -- serves pages at one address, with libmicrohttpd.
 //
-// Only status_server.cpp uses this class. All work happens in turn(), which never waits: the caller
-// polls descriptor() until next_time() at most.
+// Only status_server.cpp uses this class. All work is done in turn(), which never waits. The caller
+// polls descriptor(), until next_time() at most.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -28,14 +28,15 @@ class HttpListener {
     struct Request {
         const char* method;
         const char* url;
-        // True if the request came to a port and a Host field is not a name of a loopback address
-        // (base/host_field.h). A request without the field is accepted: HTTP/1.0 allows that, and
-        // web pages, against which this check protects, cannot make a browser leave it out.
+        // True if the request came to a port and one of its Host fields is not a name of a loopback
+        // address (base/host_field.h). This check protects against web pages. A request without the
+        // field passes: HTTP/1.0 allows that, and a web page cannot make a browser leave the field
+        // out.
         bool names_another_host;
     };
-    // The answer to a request, and its HTTP status.
+    // The answer to a request, with its HTTP status.
     struct Answer {
-        MHD_Response* response = nullptr;  // owned by the answerer; null ends the connection
+        MHD_Response* response = nullptr;  // owned by the answerer; null: the connection ends
         unsigned status = 0;
     };
     using Answerer = std::function<Answer(const Request&)>;
@@ -44,7 +45,7 @@ class HttpListener {
         unsigned most_connections = 0;
     };
 
-    // The answerer must not throw. Errors: io if libmicrohttpd cannot start.
+    // Starts to serve. The answerer must not throw. Errors: io if libmicrohttpd cannot start.
     static Result<std::unique_ptr<HttpListener>> open(ListeningSocket socket, Limits limits,
                                                       Answerer answerer);
     HttpListener(const HttpListener&) = delete;
@@ -53,14 +54,14 @@ class HttpListener {
 
     [[nodiscard]] bool still_stands() const { return socket_.still_stands(); }
     [[nodiscard]] int descriptor() const { return epoll_; }
-    // Returns when turn() is due even if nothing arrives; none: never.
+    // Returns when turn() is due even if nothing arrives; none if it is never due.
     [[nodiscard]] std::optional<SteadyTime> next_time(SteadyTime now) const;
     // Accepts, reads, answers and closes connections as far as possible without waiting. If three
     // quarters of the allowed connections are open, each new connection closes the oldest one.
     void turn(SteadyTime now);
 
   private:
-    // rounds in one turn, so that a flood does not make turn() endless
+    // Number of rounds in one turn, so that a flood of requests does not make turn() endless.
     static constexpr int most_rounds = 64;
     struct Callbacks;
     struct Open {
@@ -75,7 +76,7 @@ class HttpListener {
     Limits limits_;
     Answerer answerer_;
     std::map<MHD_Connection*, Open> open_;
-    std::uint64_t changes_ = 0;  // how many connections were opened or closed
+    std::uint64_t changes_ = 0;  // number of times that a connection was opened or closed
     bool is_behind_ = false;     // the last turn ended with work left
     MHD_Daemon* daemon_ = nullptr;
     int epoll_ = -1;

@@ -21,7 +21,7 @@ constexpr mode_t permissions = 07777;
 // Returns true if a program listens at the path, or if that cannot be determined.
 bool is_answered(const sockaddr_un& address) {
     const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    if (!socket.is_open()) return true;  // cannot be determined
+    if (!socket.is_open()) return true;  // this cannot be determined
     const bool refused = ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address),
                                    sizeof address) != 0 &&
                          (errno == ECONNREFUSED || errno == ENOENT);
@@ -63,7 +63,7 @@ Result<ListeningSocket> ListeningSocket::at_path(const std::filesystem::path& pa
     std::memcpy(static_cast<char*>(address.sun_path), name.data(), name.size());
     if (const Status free = make_way(address); !free) return pass_on(free);
     Descriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    // On Linux, bind() gives the file at the path the mode of the socket itself, minus the umask.
+    // On Linux, bind() gives the new file at the path the mode of the socket, minus the umask.
     if (!made.is_open() || ::fchmod(made.number(), socket_mode) != 0 ||
         ::bind(made.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
         ::listen(made.number(), SOMAXCONN) != 0) {

@@ -2,9 +2,9 @@
 // loopback address, never of another address.
 //
 // A Unix socket is created with mode 0660, minus the umask of the thread that opens it. The mode is
-// never changed by name, because that could follow a link that has replaced the socket. If a killed
-// daemon left a socket at the path, at_path() removes it, but only if no program answers there.
-// Anything else at the path is an error.
+// never changed by name, because the name could by then be a link that has replaced the socket. If
+// a killed daemon left a socket at the path, at_path() removes it, but only if no program answers
+// there. Anything else at the path is an error.
 //
 // Threads   One thread at a time.
 // Errors    bad_argument (an empty path, or more than 107 bytes), permission, not_found (no such
@@ -28,7 +28,7 @@ enum class Loopback { ipv4, ipv6 };
 class ListeningSocket {
   public:
     static Result<ListeningSocket> at_path(const std::filesystem::path& path);
-    // 127.0.0.1 or [::1]
+    // Opens a socket at the port of 127.0.0.1 or [::1].
     static Result<ListeningSocket> at_port(Loopback loopback, int port);
     ListeningSocket(ListeningSocket&& other) = default;
     ListeningSocket& operator=(ListeningSocket&&) = delete;
@@ -37,11 +37,11 @@ class ListeningSocket {
     ~ListeningSocket();
 
     [[nodiscard]] int descriptor() const { return socket_.number(); }
-    // none for a Unix socket
+    // Returns the port; none for a Unix socket.
     [[nodiscard]] std::optional<int> port() const { return port_; }
-    // for a Unix socket: its permissions
+    // Returns the permissions of a Unix socket.
     [[nodiscard]] mode_t mode() const { return mode_; }
-    // Returns false if the path was removed or replaced.
+    // Returns false if the file at the path was removed or replaced.
     [[nodiscard]] bool still_stands() const;
 
   private:

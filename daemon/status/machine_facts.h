@@ -15,14 +15,17 @@ namespace stormcellar::daemon {
 struct MachineFacts {
     std::string name = {};  // printable, like all texts here
     std::string directory = {};
-    std::optional<UtcTime> newest = {};   // middle of the newest volume that it brought
+    std::optional<UtcTime> newest = {};   // middle of the newest volume that the machine brought
     std::optional<UtcTime> arrived = {};  // when it last brought something
-    std::uint64_t taken = 0;              // partials put into the cache since the start
-    std::uint64_t refused = 0;            // files that are damaged or not a partial of a mosaic
-    std::uint64_t replaced = 0;           // partials of other machines that its partials replaced
+    // Partials of the machine put into the cache since the start.
+    std::uint64_t taken = 0;
+    // Files of the machine that are damaged or not a partial of a mosaic.
+    std::uint64_t refused = 0;
+    // Partials of other machines that partials of the machine replaced.
+    std::uint64_t replaced = 0;
     bool is_late = false;
     std::string why = {};           // why the machine is late; empty: it is not late
-    std::string last_problem = {};  // names its directory or a file; empty: none
+    std::string last_problem = {};  // names the machine's directory or a file; empty: none
     bool operator==(const MachineFacts&) const = default;
 };
 

@@ -124,7 +124,7 @@ void write_cache(MetricsWriter& out, const StatusFacts& facts) {
                 usage.not_kept);
 }
 
-// Writes a family with a sample for each station that has a value.
+// Writes a family of metrics, with a sample for each station that has a value.
 class PerStation {
   public:
     PerStation(MetricsWriter& out, const StationBook& book) : out_(out), book_(book) {}
@@ -173,8 +173,8 @@ void write_station_files(MetricsWriter& out, PerStation& each) {
         });
 }
 
-// Returns the time of the newest data of any station. If nothing has arrived, returns the start of
-// the service, so that a feed that is dead from the start also counts as silent.
+// Returns the time of the newest data of any station. If nothing has arrived, returns the time at
+// which the service started, so that a feed that is dead from the start also counts as silent.
 UtcTime last_data(const StatusFacts& facts) {
     std::optional<UtcTime> last;
     for (const auto& [station, state] : facts.stations.stations())

@@ -1,10 +1,10 @@
-// daemon/status/rejected_paths.h -- remembers which files were rejected and why, so that a file
-// that is ingested repeatedly (for example each time something is appended) is counted and logged
+// daemon/status/rejected_paths.h -- remembers which files were rejected and why. A file that is
+// ingested repeatedly, for example each time something is appended, is so counted and logged only
 // once.
 //
 // Two reasons are the same if the kind of error is the same and the texts differ only in their
 // digits, which may show a growing size. At most `most` paths are remembered, as hashes, in about
-// 40 bytes each. Beyond that the oldest paths are forgotten, and their next rejection counts as
+// 40 bytes each. Beyond that the oldest paths are forgotten; then their next rejection counts as
 // new.
 //
 // Threads   One thread at a time.
@@ -25,15 +25,15 @@ class RejectedPaths {
     explicit RejectedPaths(std::size_t most = 65'536) : most_(most) {}
 
     // Returns false if the file is rejected for the same reason as the last time, and true for
-    // every other outcome. A file that was gridded in the meantime, or vanished, counts as new when
-    // it is rejected again.
+    // every other outcome. If the file was gridded or vanished in the meantime, its next rejection
+    // counts as new.
     bool is_news(const std::filesystem::path& path, const pipeline::IngestOutcome& outcome);
     [[nodiscard]] std::size_t count() const { return reasons_.size(); }
 
   private:
     std::size_t most_;
     std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by path
-    std::deque<std::uint64_t> order_;  // hashes of paths, oldest first; some are forgotten
+    std::deque<std::uint64_t> order_;  // hashes of paths, oldest first; may have forgotten paths
 };
 
 }  // namespace stormcellar::daemon

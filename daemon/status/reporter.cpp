@@ -16,7 +16,7 @@ using pipeline::IngestResult;
 
 constexpr std::size_t longest_reason = 512;
 
-// Returns the subject of the line: "KTLX 2022-03-17T00:08:42Z NAME".
+// Returns the subject of a log line, such as "KTLX 2022-03-17T00:08:42Z NAME".
 std::string subject(const Finished& finished) {
     const IngestOutcome& outcome = finished.taken->ingest;
     return fmt::format("{} {} {}", outcome.station.empty() ? "????" : printable(outcome.station),
@@ -42,7 +42,7 @@ std::string describe_gridded(const Finished& finished) {
         outcome.commit_s * 1000, because(outcome));
 }
 
-// Returns true if sweeps have entered the grid of a volume that is still growing.
+// Returns true if the job added sweeps to the grid of a volume that is still growing.
 bool shows_living(const IngestOutcome& outcome) {
     return outcome.result() != IngestResult::gridded && !outcome.living.empty();
 }
@@ -139,8 +139,8 @@ void Reporter::report_directory(const Error& error) {
         is_blind ? "; the service polls the drop directory instead ([watch] poll_seconds)" : "");
 }
 
-// Reports the differences between two sites. In clear air nothing can be determined, which is not
-// worth a line every hour.
+// Reports the differences between two sites. Writes no line if nothing could be determined, as
+// happens every hour in clear air.
 void Reporter::report_sites(const pipeline::PairReport& report) {
     const About compared{
         .event = Event::sites_compared, .volume = report.instant, .domain = report.domain};

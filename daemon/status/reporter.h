@@ -11,12 +11,12 @@
 
 namespace stormcellar::daemon {
 
-// Return the text and the fields of the log line for a job that ended. Names in the text are
-// escaped.
+// Return the text of the log line for a job that ended, and the fields of the line. Names in the
+// text are escaped.
 [[nodiscard]] std::string describe(const Finished& finished);
 [[nodiscard]] About about(const Finished& finished);
 
-// Says whether the failure of a job was logged before.
+// Says whether an earlier log line named the failure of a job.
 enum class Named : bool { not_yet, before };
 
 class Reporter {
@@ -24,7 +24,7 @@ class Reporter {
     static void report(const Finished& finished, Named named = Named::not_yet);
     // Reports a directory that cannot be watched or read, or an entry that is not a file.
     static void report_directory(const Error& error);
-    // Reports the differences between two sites of a mosaic: a warning for each fault.
+    // Reports the differences between two sites of a mosaic. Writes a warning for each fault.
     static void report_sites(const pipeline::PairReport& report);
 };
 

@@ -9,8 +9,8 @@ namespace {
 constexpr std::size_t most_missing_volumes = 8;
 constexpr std::size_t most_missing_numbers = 64;
 
-// Sets `newest` to the later time. Ignores a time far in the future: a radar's clock that is ahead
-// must not hide that no more data arrive.
+// Sets `newest` to the later of the two times. Ignores a time far in the future, because a radar's
+// clock that is ahead must not hide that no more data arrive.
 void advance(std::optional<UtcTime>& newest, std::optional<UtcTime> time, UtcTime now) {
     if (time && *time <= now + StationBook::most_ahead) newest = std::max(newest, time);
 }

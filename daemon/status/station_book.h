@@ -1,17 +1,17 @@
 // daemon/status/station_book.h -- records for each station when data arrived, how fast, and what
 // was wrong.
 //
-// Times come from two clocks. The radar's clock gives the start of a volume and its newest radial;
-// times more than 10 minutes ahead of this machine's clock do not count. This machine's clock gives
-// the times when data were last seen and when a volume was last put into the cache.
+// Times come from two clocks. The radar's clock gives the start and the newest radial of a volume;
+// a time more than 10 minutes ahead of this machine's clock does not count. This machine's clock
+// says when data were last seen, and when a volume was last put into the cache.
 //
-// antenna_to_cache is the time from the newest radial of a volume to its grids in the cache. Only
-// values that may be of live data (at most an hour old, not more than 10 minutes ahead) enter the
-// timings. Other values, for example of old data that are replayed, are only counted.
-// last_antenna_s is the last value of either kind.
+// antenna_to_cache is the time from the newest radial of a volume until its grids are in the cache.
+// Only values that may be of live data (at most an hour old, and at most 10 minutes in the future)
+// enter the timings. Other values, for example of old data that are replayed, are only counted.
+// last_antenna_s is the last value, live or not.
 //
-// Memory is bounded however many stations the files claim: beyond `most_stations` a new station is
-// left out, and only the number of such files is kept.
+// Memory is bounded, however many stations the files claim. Beyond `most_stations`, a new station
+// is left out, and only the number of its files is kept.
 //
 // Threads   Plain data; one thread changes it.
 #pragma once
@@ -46,7 +46,8 @@ struct StationState {
     PerResult<std::uint64_t> results{};    // numbers of files
     std::uint64_t partial = 0;             // gridded files whose volume was not complete
     Timings close_to_cache{128};
-    std::uint64_t living = 0;      // grids of volumes that had not ended, counted each time
+    // Number of grids of volumes that had not ended; each update counts.
+    std::uint64_t living = 0;
     Timings close_to_living{128};  // from the close of the file that completed a sweep to its grid
     Timings antenna_to_cache{128};
     std::optional<double> last_antenna_s;  // the last value, even if it is not live
@@ -62,12 +63,12 @@ class StationBook {
     static constexpr std::chrono::hours most_live_age{1};
     static constexpr std::chrono::hours known_for{7 * 24};
 
-    // Adds the outcome of a job; does nothing if the outcome has no station. `latency_s`: from the
-    // close of the file to the end of its job, in seconds; `at`: when the job ended, by this
-    // machine's clock.
+    // Adds the outcome of a job. Does nothing if the outcome has no station. `latency_s` is the
+    // time in seconds from the close of the file to the end of its job. `at` is the end of the job
+    // by this machine's clock.
     void add(const pipeline::IngestOutcome& outcome, std::optional<double> latency_s, UtcTime at);
-    // add_data() notes when data arrived. add_missing_chunks() notes the chunks of a volume that
-    // never came, once the service has given up waiting for them.
+    // add_data() notes that data arrived. add_missing_chunks() notes the chunks of a volume that
+    // never came; the service calls it when it has given up waiting for them.
     void add_data(const std::string& station, UtcTime at);
     void add_missing_chunks(const std::string& station, MissingChunks missing);
     // Adds a station with its newest volume in the catalog, so that a restart does not forget a
@@ -75,7 +76,8 @@ class StationBook {
     void add_known(const std::string& station, UtcTime newest_volume, UtcTime now);
 
     [[nodiscard]] const std::map<std::string, StationState>& stations() const { return stations_; }
-    [[nodiscard]] std::uint64_t left_out() const { return left_out_; }  // files and chunks
+    // Number of files and chunks.
+    [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
   private:
     StationState* find(const std::string& station);

@@ -82,7 +82,7 @@ void StatusBook::add(pipeline::PairReport report) {
 
 void StatusBook::add_ingested(const Finished& finished, UtcTime at) {
     const pipeline::IngestOutcome& outcome = finished.taken->ingest;
-    // A file does not count as gridded if the cache kept nothing of it.
+    // Do not count a file as gridded if the cache kept none of its grids.
     if (outcome.grids.empty() && outcome.partials.empty() && outcome.not_kept > 0) {
         ++facts_.not_kept;
         return;

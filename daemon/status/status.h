@@ -33,7 +33,7 @@
 
 namespace stormcellar::daemon {
 
-// Names and reasons in the next three structures are printable.
+// A volume that was gridded. Names and reasons in this and the next two structures are printable.
 struct RecentVolume {
     std::string file, station, time;
     std::size_t grids = 0;
@@ -44,7 +44,7 @@ struct RecentVolume {
 // A file that no longer grows, although its volume has no end.
 struct WaitingFile {
     std::string file;
-    double left_s = 0;  // until its volume is finished without its end
+    double left_s = 0;  // time until its volume is finished without its end
 };
 
 struct RejectedFile {
@@ -70,7 +70,8 @@ struct StatusFacts {
     double longest_wait_s = 0;               // the longest wait of all waiting files
     std::vector<WaitingFile> waiting_files;  // growing files, in the order of left_s
     std::uint64_t lone_chunks = 0;  // files that look like one chunk but are not named like one
-    std::uint64_t not_kept = 0;     // files of which the cache keeps nothing, because of its limits
+    // Files of which the cache keeps nothing, because of its budgets.
+    std::uint64_t not_kept = 0;
     std::uint64_t living_left_out = 0;  // living grids that were skipped because there was no time
     std::uint64_t given_up = 0;         // growing volumes given up because there was no room; they
                                         // are read again
@@ -79,7 +80,7 @@ struct StatusFacts {
     std::vector<LoopState> loops;
     std::vector<LoopState> others_loops;  // loops that another process runs (others_loops.h)
     Timings close_to_cache{4096};
-    std::uint64_t living = 0;          // grids of volumes that had not ended, counted each time
+    std::uint64_t living = 0;          // grids of volumes that had not ended; each update counts
     Timings close_to_living{4096};     // from the close of the chunk that completed a sweep
     Timings antenna_to_cache{4096};    // of data that can be live
     std::uint64_t not_live = 0;        // volumes that antenna_to_cache leaves out
@@ -94,8 +95,8 @@ class StatusBook {
   public:
     StatusBook(std::filesystem::path drop, std::filesystem::path cache);
 
-    // `at`: the end of the job, by the wall clock. Returns false if the file was already rejected
-    // for the same reason; it is then not counted again.
+    // Adds the outcome of a job. `at` is the end of the job by the wall clock. Returns false, and
+    // counts nothing, if the file was already rejected for the same reason.
     bool add(const Finished& finished, UtcTime at = now_utc());
     void count_overflow() { ++facts_.overflows; }
     void count_unseen(std::uint64_t count) { facts_.unseen += count; }
@@ -122,10 +123,10 @@ class StatusBook {
 
     [[nodiscard]] const StatusFacts& facts() const { return facts_; }
     [[nodiscard]] std::string json(const Pending& pending, UtcTime now) const;
-    // Returns the text for STATUS=: "ingested 12 (latest KTLX 2022-03-17T00:08:42Z), rejected 1,
-    // waiting 3, running 2, growing 0". The text begins with "waiting for the drop directory DIR:
-    // WHY; " if the drop directory cannot be read, else with "cannot read N directories; " if
-    // directories below it cannot be read.
+    // Returns the text for systemd's STATUS=, such as "ingested 12 (latest KTLX
+    // 2022-03-17T00:08:42Z), rejected 1, waiting 3, running 2, growing 0". If the drop directory
+    // cannot be read, the text begins with "waiting for the drop directory DIR: WHY; ". If only
+    // directories below it cannot be read, it begins with "cannot read N directories; ".
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 
@@ -139,13 +140,14 @@ class StatusBook {
 };
 
 // loops_json() returns the status document of a process that only runs loops
-// (daemon/loops/loops_service.h), loops_line() its STATUS= line: "2 of 3 loops run, made 12".
+// (daemon/loops/loops_service.h). loops_line() returns the text for its STATUS=, such as "2 of 3
+// loops run, made 12".
 [[nodiscard]] std::string loops_json(const std::vector<LoopState>& loops, std::string_view state,
                                      UtcTime started, UtcTime now);
 [[nodiscard]] std::string loops_line(const std::vector<LoopState>& loops);
 
-// Returns the seconds from the last close of the file that an event reported to the end of the job;
-// none if no event reported a close.
+// Returns the seconds from the last close of the file to the end of the job; none if no event
+// reported a close.
 [[nodiscard]] std::optional<double> latency_of(const Finished& finished);
 
 }  // namespace stormcellar::daemon

@@ -1,7 +1,7 @@
 // daemon/status/status_board.h -- holds the last published status for other threads.
 //
-// The service posts a copy at most once a second. Readers render pages from that copy in their own
-// thread, so that requests, however many, cost the service nothing.
+// The service posts a copy of its status at most once a second. Readers render pages from that copy
+// in their own threads. So requests, however many, cost the service nothing.
 //
 // Threads   Thread safe.
 #pragma once
@@ -25,7 +25,7 @@ class StatusBoard {
         const MutexLock lock(mutex_);
         latest_.swap(fresh);
     }
-    // Returns the last status that was posted; null: none yet.
+    // Returns the status that was posted last, or null if none was.
     [[nodiscard]] std::shared_ptr<const StatusSnapshot> latest() const {
         const MutexLock lock(mutex_);
         return latest_;

@@ -17,7 +17,8 @@ StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& dir
       notifier_(notifier) {}
 
 Status StatusFile::write(const std::string& text) {
-    (void)file_system_.remove(temporary_);  // left by a daemon that was killed while writing
+    // A daemon that was killed while writing may have left it.
+    (void)file_system_.remove(temporary_);
     const Result<int> descriptor = file_system_.create_exclusive(temporary_);
     if (!descriptor) return pass_on(descriptor);
     Status written = file_system_.write_at(*descriptor, 0, std::as_bytes(std::span{text}));
@@ -40,7 +41,7 @@ bool StatusFile::publish(const std::function<Texts()>& make, SteadyTime now, boo
                   printable(written.error().message));
     }
     failing_ = !written;
-    changed_ = failing_;  // try again
+    changed_ = failing_;  // true: the next call tries again
     return true;
 }
 

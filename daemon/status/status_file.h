@@ -1,9 +1,9 @@
-// daemon/status/status_file.h -- publishes a status in a status.json and in the status line of the
-// service manager.
+// daemon/status/status_file.h -- publishes a status in the file status.json and in the status line
+// of the service manager.
 //
 // The status is written at most once a second, and only if something has changed. The file appears
-// by rename, so that a reader always sees a complete document. It is not synced, since a status has
-// no meaning after a crash.
+// by rename, so that a reader always sees a complete document. The file is not synced, because a
+// status has no meaning after a crash.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -21,7 +21,7 @@ namespace stormcellar::daemon {
 
 class StatusFile {
   public:
-    // Writes status.json into `directory`.
+    // Makes an object that writes status.json into `directory`.
     StatusFile(FileSystem& file_system, const std::filesystem::path& directory, Notifier& notifier);
 
     struct Texts {
@@ -42,7 +42,7 @@ class StatusFile {
     std::filesystem::path path_, temporary_;
     Notifier& notifier_;
     bool changed_ = false;
-    bool failing_ = false;  // the last write failed, and the failure is logged
+    bool failing_ = false;  // the last write failed, and that was logged
     SteadyTime next_{};
 };
 

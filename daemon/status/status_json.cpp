@@ -131,7 +131,7 @@ Json json_of(const Timings& timings) {
             {"max", known(summary.max)}};
 }
 
-// Returns the counts above zero, by the name of the error.
+// Returns an object with the counts above zero, by the name of the error.
 Json json_of(const PerErrorCode<std::uint64_t>& counts) {
     Json document = Json::object();
     for (const ErrorCode code : all_error_codes) {
@@ -295,7 +295,7 @@ std::string status_json(const StatusFacts& facts, const Pending& pending, UtcTim
     const bool elsewhere = facts.loops.empty() && !facts.others_loops.empty();
     document["loops"] = json_of(elsewhere ? facts.others_loops : facts.loops);
     if (elsewhere) document["loops"]["elsewhere"] = true;
-    // Replace invalid UTF-8. Texts were made printable already, but a name must never end the
+    // Replace invalid UTF-8. Texts were made printable before, but a name must never end the
     // service.
     return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

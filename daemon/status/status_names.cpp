@@ -3,7 +3,7 @@
 namespace stormcellar::daemon {
 
 std::string_view name_of(pipeline::IngestResult result) {
-    // in the order of the enumeration
+    // The names, in the order of the enumeration.
     constexpr PerResult<std::string_view> names = {"gridded",       "no_moment",  "no_position",
                                                    "other_station", "incomplete", "rejected",
                                                    "unchanged",     "vanished",   "registered"};
@@ -11,8 +11,8 @@ std::string_view name_of(pipeline::IngestResult result) {
 }
 
 std::string_view name_of(ErrorCode code) {
-    // In the order of the enumeration. In ingest, bad_argument means that the data of a file allow
-    // no grid.
+    // The names, in the order of the enumeration. When a file is ingested, bad_argument means that
+    // its data allow no grid.
     constexpr PerErrorCode<std::string_view> names = {
         "contradictory", "not_found",  "empty",      "truncated", "corrupt", "unsupported",
         "not_level2",    "not_a_file", "io",         "exhausted", "busy",    "no_space",

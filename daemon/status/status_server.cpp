@@ -39,9 +39,9 @@ HttpResponse response_of(std::string_view text, const char* type) {
 
 constexpr const char* plain = "text/plain; charset=utf-8";
 
-// Gives this thread, which creates only the socket, its own umask. The umask of the service is
-// meant for files and would keep the group from the socket. If the system refuses, the service's
-// umask applies, and Worker::open() reports a socket that the group cannot use.
+// Gives this thread, which creates only the socket, a umask of its own. The umask of the service is
+// meant for files, and would keep the group from using the socket. If the system refuses, the
+// service's umask applies; then Worker::open() reports that the group cannot use the socket.
 void take_own_umask() {
     if (::unshare(CLONE_FS) == 0) ::umask(0117);
 }
@@ -62,7 +62,7 @@ class StatusServer::Worker {
   public:
     Worker(StatusServerOptions options, Render render);
 
-    // Opens the addresses that should be open and are not.
+    // Opens the addresses that should be open and are not open.
     void open(SteadyTime now);
     // Returns why an address is not served; empty if all addresses are served.
     [[nodiscard]] std::string unanswered() const;
@@ -73,9 +73,9 @@ class StatusServer::Worker {
     struct Address {
         std::string name;
         std::function<Result<ListeningSocket>()> listen;
-        bool may_lack = false;  // a problem is not an error, for example on a machine without IPv6
+        bool may_lack = false;  // a problem with this address is no error, for example without IPv6
         std::unique_ptr<HttpListener> listener = nullptr;
-        bool failing = false;   // the last attempt failed, and the failure is logged
+        bool failing = false;   // the last attempt failed, and that was logged
         bool hopeless = false;  // do not try again
         std::string problem = {};
     };
@@ -219,10 +219,10 @@ StatusServer::~StatusServer() {
 }
 
 void StatusServer::run() {
-    // Writing to a client that is gone must fail, not end the process.
+    // A write to a client that is gone must fail, and must not end the process.
     const BlockedSignals blocked({SIGPIPE});
-    // On Linux this sets the priority of this thread only. If that is not allowed, keep the
-    // priority.
+    // On Linux this sets the priority of this thread only. If the system refuses, the priority
+    // stays.
     (void)::setpriority(PRIO_PROCESS, 0, 10);
     take_own_umask();
     while (!stopping_) {

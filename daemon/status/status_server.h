@@ -4,9 +4,10 @@
 //   GET /metrics       Prometheus text (metrics_text.h)
 //   GET /status.json   status_json.h
 // All other requests give 404, 405 or 400. Each answer ends its connection. On a port, a request
-// whose Host is not a name of the loopback addresses gives 421 (http_listener.h); on the socket any
-// Host is accepted. Answers forbid caching and guessing of the content type. libmicrohttpd answers
-// invalid HTTP (400, 413, 414, 431) itself, with fixed texts and without these header fields.
+// gives 421 if its Host is not a name of the loopback addresses (http_listener.h); on the socket
+// every Host is accepted. Answers forbid caching, and guessing of the content type. libmicrohttpd
+// answers invalid HTTP (400, 413, 414, 431) itself, with fixed texts and without these header
+// fields.
 //
 // The server has one thread with a lower priority. Hostile clients do no harm: the number of
 // connections is limited, a connection ends after 10 seconds at the latest (sooner if many more
@@ -38,16 +39,16 @@ struct StatusServerOptions {
     int http_port = 0;             // 0: none
     std::chrono::milliseconds retry{15'000};
     std::chrono::milliseconds longest_connection{10'000};
-    // how long a page is served before it is rendered anew
+    // Time for which a page is served before it is rendered anew.
     std::chrono::milliseconds freshness{200};
-    unsigned most_connections = 32;  // of each address
+    unsigned most_connections = 32;  // to each address
 };
 
 enum class StatusPage { metrics, json };
 
 class StatusServer {
   public:
-    // Returns a page; while it is empty, the server answers 503.
+    // Returns a page. If it is empty, the server answers 503.
     using Render = std::function<std::string(StatusPage)>;
 
     StatusServer(StatusServerOptions options, Render render);
@@ -56,7 +57,7 @@ class StatusServer {
     ~StatusServer();
 
     // Returns ok if every address is served, else the first problem. Ignores [::1], which a machine
-    // may lack, and paths that are too long. May be called from any thread.
+    // may lack, and paths that are too long for a socket. May be called from any thread.
     [[nodiscard]] Status answers() const;
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 
@@ -68,14 +69,15 @@ class StatusServer {
     WakeUp wake_up_;
     std::atomic<bool> stopping_ = false;
     mutable Mutex unanswered_mutex_;
-    // why an address is not served; empty: all addresses are served
+    // The reason why an address is not served; empty: all addresses are served.
     std::string unanswered_ STORMCELLAR_GUARDED_BY(unanswered_mutex_) =
         "the status is not served yet";
     Pulse pulse_;
     std::thread thread_;  // the last member: it uses the members above
 };
 
-// Returns a function that renders pages of the latest status on the board, which must outlive it.
+// Returns a function that renders pages of the status that was last posted on the board. The board
+// must outlive the function.
 [[nodiscard]] StatusServer::Render pages_of(const StatusBoard& board);
 
 }  // namespace stormcellar::daemon

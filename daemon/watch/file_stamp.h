@@ -15,8 +15,8 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    // last change of permissions or owner, so that a file counts as changed when it becomes
-    // readable
+    // Last change of permissions or owner. With it, a file counts as changed when it becomes
+    // readable.
     std::int64_t changed_ns = 0;
 
     bool operator==(const FileStamp&) const = default;
@@ -31,11 +31,11 @@ struct FileFound {
     FileStamp stamp;
     mode_t mode = 0;
 };
-// Returns the entry at the path. A path that may not be examined counts as missing. A path that
-// cannot be examined now, for example because descriptors have run out, is `unknown`.
+// Returns the entry at the path. If the path may not be examined, the entry is `missing`. If it
+// cannot be examined now, for example because descriptors have run out, the entry is `unknown`.
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path);
-// Returns the entry at the path. A path that leads through a symbolic link below the directory
-// `beneath` also counts as missing (base/beneath.h).
+// Returns the entry at the path. If the path leads through a symbolic link below the directory
+// `beneath`, the entry is also `missing` (base/beneath.h).
 [[nodiscard]] FileFound look_at(const std::filesystem::path& path,
                                 const std::filesystem::path& beneath);
 

@@ -26,12 +26,12 @@ ErrorCode code_of(int error_number) {
     return error_number == ELOOP ? ErrorCode::not_found : error_code_of(error_number);
 }
 
-// Returns, for example, "fs.inotify.max_user_watches (16384 now)": the smallest of the limits that
-// apply to the user. `name` is given without "max_".
+// Returns the smallest limit that applies to the user, with its value, for example
+// "fs.inotify.max_user_watches (16384 now)". `name` is the name of the limit without "max_".
 std::string limit_named(std::string_view name) {
     std::string least_name = fmt::format("fs.inotify.max_{}", name);
     std::optional<std::uint64_t> least;
-    // The second limit applies to the users of a container.
+    // A second limit applies to the users of a container.
     const std::string_view kind = name.substr(name.find('_') + 1);
     for (const std::string& sysctl :
          {fmt::format("fs.inotify.max_{}", name), fmt::format("user.max_inotify_{}", kind)}) {

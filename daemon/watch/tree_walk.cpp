@@ -44,7 +44,7 @@ void report_too_deep(const std::filesystem::path& path, const WalkVisitor& visit
                                        path.native(), max_walk_depth)});
 }
 
-// Returns false if the directory returned no entries at all, not even ".".
+// Returns false if reading the directory gave no entries at all, not even ".".
 bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
                   const WalkVisitor& visitor);
 
@@ -59,8 +59,8 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     if (directory) {
         (void)walk_entries(directory.get(), path, depth, visitor);
     } else if (errno != ENOENT && errno != ENOTDIR && errno != ELOOP) {
-        // Report the error. The directory was neither removed (ENOENT) nor replaced by another kind
-        // of entry (ENOTDIR, ELOOP) in the meantime.
+        // The directory still exists: it was neither removed (ENOENT) nor replaced by another kind
+        // of entry (ENOTDIR, ELOOP). So report the error.
         const int error_number = errno;
         visitor.problem(path, {code_of(error_number),
                                fmt::format("{}: {}", path.native(), reason_of(error_number))});
@@ -70,7 +70,7 @@ void walk_below(int parent, const char* name, const std::filesystem::path& path,
     }
 }
 
-// Reports the first reason why names of a directory are not used, and ignores further reasons.
+// Reports only the first reason why names of a directory are not used.
 class NameProblem {
   public:
     NameProblem(const std::filesystem::path& path, const WalkVisitor& visitor)
@@ -126,8 +126,8 @@ bool walk_entries(DIR* directory, const std::filesystem::path& path, int depth,
     }
 }
 
-// Returns true if the directory was deleted: a mount may keep such a directory, but its link count
-// is 0.
+// Returns true if the directory was deleted. A mount may keep a deleted directory, but its link
+// count is then 0.
 bool is_deleted(DIR* directory) {
     struct stat facts {};
     return ::fstat(::dirfd(directory), &facts) == 0 && facts.st_nlink == 0;

@@ -16,7 +16,7 @@ namespace stormcellar::daemon {
 struct Unreadable {
     static constexpr std::size_t most_named = 16;
 
-    std::map<std::string, std::string> named;  // reasons by path, of the directories found first
+    std::map<std::string, std::string> named;  // reasons of the directories found first, by path
     std::uint64_t further = 0;
 
     void add(const std::filesystem::path& directory, const std::string& reason);
@@ -25,8 +25,8 @@ struct Unreadable {
 };
 
 // Return the end of a sentence that says how to make a directory readable to the service; empty if
-// no remedy is known. remedy_for() is for the drop directory, which the unit may hide
-// (ProtectHome=); remedy_below() is for directories below it, for which the service may lack a
+// no remedy is known. remedy_for() is for the drop directory itself, which the unit of systemd may
+// hide (ProtectHome=). remedy_below() is for directories below it, for which the service may lack a
 // group.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
 [[nodiscard]] std::string remedy_below(ErrorCode code);

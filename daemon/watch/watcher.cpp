@@ -17,9 +17,9 @@ namespace stormcellar::daemon {
 namespace {
 
 constexpr int events_a_step = 32;
-// Limit of the time that the thread owes for reading directories that come or go; the debt
-// decreases by a tenth of a second each second. Beyond the limit, directories are left to the next
-// scan.
+// Limit of the time that the thread owes for reading directories that come or go. The debt
+// decreases by a tenth of a second each second. Beyond the limit, such directories are left to the
+// next scan.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 
@@ -76,7 +76,8 @@ void Watcher::report_problem(const std::filesystem::path& directory, const Error
             std::min(problem.message.size(), directory.native().size() + std::size(": ") - 1));
         unreadable_.add(directory, reason + remedy);
     }
-    // The codes `unsupported` and `no_space` are reserved for directories that are not watched.
+    // Do not use `unsupported` and `no_space` here, because they mean that a directory is not
+    // watched.
     const ErrorCode code =
         problem.code == ErrorCode::permission ? ErrorCode::permission : ErrorCode::io;
     listener_.directory_problem({code, problem.message + remedy});
@@ -95,15 +96,15 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     // The drop directory itself may be a link.
     const Result<int> watch = events_.watch(directory == drop_ ? drop_ / "." : directory);
     if (!watch) {
-        // A directory that has vanished is not a problem, and the walk reports a directory that may
-        // not be read.
+        // Report no problem if the directory has vanished. If it may not be read, the walk reports
+        // that.
         const ErrorCode code = watch.error().code;
         if (code == ErrorCode::not_found || code == ErrorCode::permission) return;
         ++unwatched_;
         if (!std::exchange(told_unwatched_, true)) listener_.directory_problem(watch.error());
         return;
     }
-    // A renamed directory keeps its watch, and its old name may now belong to another directory.
+    // A renamed directory keeps its watch, but its old name may now be another directory's.
     const std::string& path = directory.native();
     if (const auto old = path_of_.find(*watch); old != path_of_.end() && old->second.path != path) {
         watch_of_.erase(old->second.path);
@@ -115,7 +116,8 @@ void Watcher::add_watch(const std::filesystem::path& directory) {
     watch_of_[path] = *watch;
 }
 
-// Forgets directories that were moved away, or that vanished while events were lost.
+// Forgets the directories that the scan did not see: they were moved away, or vanished while events
+// were lost.
 void Watcher::forget_unseen() {
     std::vector<int> watches;
     for (const auto& [watch, directory] : path_of_) {
@@ -173,7 +175,7 @@ void Watcher::handle(const DirectoryEvent& event) {
         return;
     }
     const auto found = path_of_.find(event.watch);
-    if (found == path_of_.end()) return;  // the event is older than the removal of its watch
+    if (found == path_of_.end()) return;  // the watch was removed after the event
     const std::filesystem::path directory = found->second.path;
     if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0 && directory == drop_) {
         unwatch_tree(drop_);
@@ -186,7 +188,7 @@ void Watcher::handle(const DirectoryEvent& event) {
     }
     if (pipeline::is_temporary_name(event.name)) return;
     const std::filesystem::path path = directory / event.name;
-    if (path.native().size() >= most_path_bytes) return;  // reported by scans
+    if (path.native().size() >= most_path_bytes) return;  // scans report such a path
     if ((event.mask & IN_ISDIR) != 0) {
         handle_directory(event, path);
     } else {
@@ -200,8 +202,8 @@ void Watcher::handle_directory(const DirectoryEvent& event, const std::filesyste
     owed_at_ = began;
     const bool has_time = owed_s_ < most_owed_s;
     if ((event.mask & (IN_DELETE | IN_MOVED_FROM)) != 0) {
-        // If there is no time now, the next scan removes the watches, or the kernel does so when
-        // the directory ends.
+        // If there is no time now, the next scan removes the watches. If the directory is deleted,
+        // the kernel removes them.
         if (has_time) unwatch_tree(path);
         listener_.directory_gone(path, (event.mask & IN_DELETE) != 0);
     } else if ((event.mask & (IN_CREATE | IN_MOVED_TO)) != 0) {

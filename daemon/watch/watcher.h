@@ -1,10 +1,10 @@
 // daemon/watch/watcher.h -- reports which files appear, change and vanish below the drop directory.
 //
-// Every directory has an inotify watch, including subdirectories as they appear. A directory is
+// Every directory has an inotify watch; new subdirectories get one when they appear. A directory is
 // read after its watch is set, so that no file is missed. Call scan(), which reads the whole tree,
-// at the start, after the event queue overflowed, and from time to time, since events can be lost
+// at the start, after the event queue overflowed, and from time to time, because events can be lost
 // (network file systems send none). Reporting a file twice does no harm, because the schedule has
-// one entry for each path. Temporary names are never reported; symbolic links, FIFOs, sockets and
+// one entry for each path. Temporary names are never reported. Symbolic links, FIFOs, sockets and
 // devices are reported only as left out. If some directories cannot be watched (no watches left, or
 // file systems that report no changes), the watcher is blind, and the caller must scan more often.
 //
@@ -31,35 +31,34 @@ class WatchListener : public Interface {
   public:
     // A file was closed after writing, or renamed to this name.
     virtual void file_closed(const std::filesystem::path& path, const FileStamp& stamp) = 0;
-    // A file was created and is not closed yet; or it is a hard link, for which no close ever
-    // comes.
+    // A file was created and is not closed yet, or a hard link was made, which is never closed.
     virtual void file_created(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // Returns true if file_grew() must report each write to the file before the file is closed.
     [[nodiscard]] virtual bool follows(const std::filesystem::path& /*path*/) const {
         return false;
     }
     virtual void file_grew(const std::filesystem::path& /*path*/, const FileStamp& /*stamp*/) {}
-    // A directory was read, and this file is in it.
+    // A directory was read, and has this file.
     virtual void file_found(const std::filesystem::path& path, const FileStamp& stamp) = 0;
     // A file was deleted or renamed away.
     virtual void file_gone(const std::filesystem::path& path) = 0;
     // A directory was deleted or renamed away, with everything in it.
     virtual void directory_gone(const std::filesystem::path& /*path*/, bool /*deleted*/) {}
-    // An entry is neither file nor directory; `kind` names its kind ("a FIFO"). Each scan reports
-    // it again.
+    // An entry is neither file nor directory; `kind` says what it is, such as "a FIFO". Each scan
+    // reports the entry again.
     virtual void entry_left_out(const std::filesystem::path& /*path*/, std::string_view /*kind*/) {}
-    // Directories come or go faster than they can be read, and one was skipped. A scan is needed.
+    // Directories come or go faster than they can be read, so one was skipped. A scan is needed.
     virtual void directory_unread() {}
-    // An entry that an event reported, or a directory of a scan, could not be examined now, for
-    // example because descriptors have run out. A scan is needed, but not at once.
+    // An entry could not be examined now, for example because descriptors have run out. The entry
+    // is one that an event reported, or a directory of a scan. A scan is needed, but not at once.
     virtual void entry_unseen() {}
     // The kernel dropped events. A scan is needed.
     virtual void events_lost() = 0;
     // The drop directory itself was deleted or moved.
     virtual void drop_vanished() = 0;
-    // A directory cannot be read, or some of its names are not used (`error.code` permission or
-    // io). Also called for the first directory that cannot be watched (no_space if the limit is
-    // reached), and for the first directory on a silent file system (unsupported).
+    // A directory cannot be read, or some of its names are not used (`error.code` is permission or
+    // io). Also called for the first directory that cannot be watched (no_space if the limit of
+    // watches is reached), and for the first directory on a silent file system (unsupported).
     virtual void directory_problem(const Error& error) = 0;
 };
 
@@ -71,16 +70,16 @@ class Watcher {
     // Sets a function that scan() and read_events() call now and then while they have much to do.
     // At each of these calls, scan() also reads events.
     void on_step(std::function<void()> step) { step_ = std::move(step); }
-    // Watches and reports everything below the drop directory. Fails if the drop directory cannot
-    // be read.
+    // Watches everything below the drop directory, and reports it. Fails if the drop directory
+    // cannot be read.
     [[nodiscard]] Status scan();
-    // Handles the waiting events, at most one EventSource::read() of them.
+    // Handles the waiting events, but no more than one EventSource::read() returns.
     void read_events();
     [[nodiscard]] std::size_t directory_count() const { return watch_of_.size(); }
-    // Returns the directories that could not be read in the last scan and since.
+    // Returns the directories that could not be read in the last scan, or since then.
     [[nodiscard]] const Unreadable& unreadable() const { return unreadable_; }
-    // Returns true if changes of some directories come without events, as far as the last scan and
-    // later events show.
+    // Returns true if some directories change without events, as far as the last scan and later
+    // events show.
     [[nodiscard]] bool is_blind() const { return unwatched_ > 0 || silent_ > 0; }
 
   private:
@@ -107,13 +106,13 @@ class Watcher {
         std::uint64_t scan = 0;  // the last scan that saw the directory
     };
     std::unordered_map<int, Watched> path_of_;
-    // sorted, so that everything below a directory is one range
+    // sorted by path, so that everything below a directory is one range
     std::map<std::string, int> watch_of_;
     std::uint64_t scan_ = 0;
-    bool saw_all_ = true;  // the current or last scan saw every entry
+    bool saw_all_ = true;  // the current or last scan has seen every entry
     Unreadable unreadable_;
     using Clock = std::chrono::steady_clock;
-    double owed_s_ = 0;  // see most_owed_s; as of owed_at_
+    double owed_s_ = 0;  // debt at owed_at_; see most_owed_s
     Clock::time_point owed_at_{};
     std::size_t unwatched_ = 0, silent_ = 0;  // numbers of directories, in the last scan and since
     bool told_unwatched_ = false, told_silent_ = false;
