@@ -10,7 +10,8 @@
 namespace stormcellar::netcdf {
 namespace {
 
-// CF names of a projection and of the longitude of its origin (CF-1.8, appendix F).
+// The CF names of a projection, and of the attribute that holds the longitude of its origin
+// (CF-1.8, appendix F).
 struct MappingNames {
     const char* mapping;
     const char* origin_longitude;

@@ -40,10 +40,10 @@ namespace {
 
 using level2::Volume;
 
-// The first and the last time of the radials. If no time is plausible, both are the start of the
-// volume.
+// The times of the first and the last radial. If no radial has a plausible time, both are the start
+// of the volume.
 struct Coverage {
-    UtcTime start, end;  // whole seconds that include the volume
+    UtcTime start, end;  // whole seconds, between which the volume is
     bool times_increase = true;
 };
 
@@ -67,7 +67,7 @@ Coverage coverage_of(const Volume& volume) {
     return coverage;
 }
 
-// Returns the operator of the radar. Level II does not name it, but the site does.
+// Returns the operator of the radar. Level II does not name it, but the radar's site tells it.
 std::string institution_of(const std::optional<Station>& station) {
     if (!station) return "unknown";
     return station->kind == RadarKind::tdwr ? "TDWR network of the FAA"

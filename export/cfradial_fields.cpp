@@ -13,12 +13,13 @@ using level2::GateStatus;
 using level2::Moment;
 using level2::SweepMoment;
 
-// Marks elements without a code. All codes are 0 or more, so the fill value is negative.
+// Marks elements that have no code. All codes are 0 or more, so this fill value is negative.
 constexpr int fill_code = -1;
-// The flags of CFP, codes 0 to 7, are stored in its status variable as this number plus the code.
+// The status variable of CFP stores its flags, which are codes 0 to 7, as this number plus the
+// code.
 constexpr int first_filter_flag = 16;
-// A chunk holds at most half a sweep of half-degree radials. Sweeps and chunks end at different
-// places, so the last two chunks are kept unpacked; an int takes four bytes.
+// A chunk holds at most half a sweep of half-degree radials. A sweep may end within a chunk, so the
+// last two chunks are kept unpacked; in them, an int takes four bytes.
 constexpr std::size_t chunk_rows = 360;
 constexpr std::size_t chunk_codes = std::size_t{1} << 18;
 constexpr std::size_t chunk_cache_bytes = 2 * 4 * chunk_codes;
@@ -86,7 +87,7 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     file.text(codes, "long_name", facts.netcdf.long_name);
     if (!facts.netcdf.cfradial.empty()) file.text(codes, "standard_name", facts.netcdf.cfradial);
     file.text(codes, "units", facts.units);
-    // A scale of 0 means that the code is the value.
+    // If the scale is 0, the code itself is the value.
     const double scale = kind.scale == 0 ? 1.0 : static_cast<double>(kind.scale);
     const double offset = kind.scale == 0 ? 0.0 : static_cast<double>(kind.offset);
     file.number(codes, "scale_factor", 1 / scale);
@@ -133,7 +134,8 @@ struct SweepGates {
     std::vector<signed char> states;
 };
 
-// Unpacks the rows of one sweep. A null moment gives rows without gates. The vectors are reused.
+// Unpacks the rows of one sweep into `to`, whose vectors are reused. If the moment is null, the
+// rows have no gates.
 void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radials, SweepGates& to) {
     to.codes.assign(radials * axis.gates, fill_code);
     to.states.assign(radials * axis.gates, static_cast<signed char>(GateStatus::no_data));
@@ -153,7 +155,8 @@ void unpack(const SweepMoment* moment, const RangeAxis& axis, std::size_t radial
     }
 }
 
-// Writes, for each sweep, how to restore the measured gates, if the axis repeats or shifts gates.
+// Writes how to get the measured gates of each sweep back. Writes nothing if the axis neither
+// repeats nor shifts gates.
 void write_placement(const CfradialParts& parts, const CfradialField& field) {
     std::vector<int> repeats;
     std::vector<int> first;

@@ -11,7 +11,7 @@ namespace {
 
 using level2::SweepMoment;
 
-// Compares bits, so that two scales that are NaN are the same scale.
+// Returns true if both have the same bits. So two scales that are NaN count as the same scale.
 bool same_bits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -37,9 +37,9 @@ std::size_t most_gates(const SweepMoment& moment) {
 }
 
 // Returns the number of the first element that the moment's first gate fills. Element 0 has its
-// center at `axis_first_m`; the number is below 0 if the gate begins before that element. An
-// element belongs to the gate if its center is beyond the gate's near edge. A gate with the spacing
-// of the axis fills the element at the gate's center.
+// center at `axis_first_m`. The number is negative if the gate begins before element 0. An element
+// belongs to the gate if its center is beyond the gate's near edge. So a gate that is as long as
+// the spacing of the axis fills one element, at the gate's center.
 std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
                            const SweepMoment& moment) {
     const std::int64_t doubled = 2 * (moment.first_gate_m - axis_first_m) - moment.gate_spacing_m;
@@ -53,7 +53,7 @@ std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
 constexpr std::int64_t most_elements = 8192;
 constexpr std::int32_t most_repeats = 8;
 
-// Returns every moment that has gates.
+// Returns all moments of the volume that have gates.
 std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
     std::vector<const SweepMoment*> moments;
     for (const level2::Sweep& sweep : volume.sweeps) {
@@ -63,7 +63,7 @@ std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
     return moments;
 }
 
-// Returns true if the moment's gates fit onto an axis with the gates of `finest`.
+// Returns true if the moment's gates fit onto an axis whose elements are the gates of `finest`.
 bool fits(const SweepMoment& moment, const SweepMoment& finest) {
     const std::int32_t spacing_m = finest.gate_spacing_m;
     if (spacing_m <= 0 || moment.gate_spacing_m % spacing_m != 0) return false;
@@ -72,7 +72,7 @@ bool fits(const SweepMoment& moment, const SweepMoment& finest) {
            (moment.first_gate_m - finest.first_gate_m) % spacing_m == 0;
 }
 
-// Returns the axis that fits all gates of the volume, if there is one.
+// Returns an axis onto which all gates of the volume fit; none if there is no such axis.
 std::optional<RangeAxis> common_axis(const level2::Volume& volume) {
     const std::vector<const SweepMoment*> moments = moments_of(volume);
     const auto finest = std::min_element(
@@ -108,8 +108,8 @@ Status check_arrays(const SweepMoment& moment, std::size_t sweep, std::size_t ra
                 sweep, level2::moment_name(moment.moment), radials);
 }
 
-// Puts the gates of a sweep into the field of their kind, or into a new field. A sweep that holds
-// one kind twice needs two fields.
+// Puts the gates of a sweep into the field of their kind, or into a new field. If a sweep holds one
+// kind twice, the second goes into another field.
 void add(CfradialLayout& layout, const SweepMoment& moment, std::size_t sweep,
          std::size_t sweep_count, bool one_axis) {
     const std::size_t radials = radials_with_gates(moment);
@@ -166,7 +166,8 @@ void find_axes(CfradialLayout& layout) {
 }  // namespace
 
 GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
-    if (axis.gate_spacing_m <= 0) return {};  // damaged gates, and an axis made for them
+    // The gates are damaged, and the axis was made for them.
+    if (axis.gate_spacing_m <= 0) return {};
     const std::int64_t first = first_element(axis.first_gate_m, axis.gate_spacing_m, moment);
     return {static_cast<std::size_t>(first),
             static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};
@@ -199,7 +200,7 @@ Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges) {
     }
     order_and_name(layout.fields);
     if (axis) {
-        layout.axes = {*axis};  // the axis of every field
+        layout.axes = {*axis};  // all fields are on this axis
     } else {
         find_axes(layout);
     }

@@ -1,15 +1,15 @@
 // export/cfradial_layout.h -- finds the variables and range axes that a volume needs; internal to
 // export.
 //
-// Gates of a moment that agree in word size, scale and offset make one field if the volume has one
-// range axis (RangeAxes). Otherwise they must also agree in first gate and spacing, and each pair
-// of first gate and spacing makes an axis. With either choice of RangeAxes, nearly every moment of
-// a modern volume is one field on one axis.
+// With one range axis for the volume (RangeAxes), the gates of a moment that agree in word size,
+// scale and offset make one field. With several range axes, they must also agree in first gate and
+// spacing, and each pair of first gate and spacing makes an axis. Either way, nearly every moment
+// of a modern volume is one field on one axis.
 //   names   Gates of a moment that make one field are of one kind. The kind that most radials have
 //           is named as the moment, such as REF; the other kinds are REF_2, REF_3, .... Axes are
 //           range, range_2, ... in the order in which the fields need them.
 //   order   Fields are sorted by moment (REF VEL SW ZDR PHI RHO CFP), then by number of radials,
-//           then by their first place in the file.
+//           then by the place at which they first appear in the file.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -27,13 +27,13 @@ namespace stormcellar::netcdf {
 
 struct RangeAxis {
     std::string name;
-    std::int32_t first_gate_m = 0;  // to the center
+    std::int32_t first_gate_m = 0;  // to the center of the gate
     std::int32_t gate_spacing_m = 0;
     std::size_t gates = 0;  // number of elements, enough for the longest radial
 };
 
-// The place of the gates of one sweep's moment on the axis of their field: gate i fills the
-// elements first + i * repeats to first + (i + 1) * repeats - 1.
+// The place of one sweep's gates on the axis of their field. Gate i fills the elements from first +
+// i * repeats to first + (i + 1) * repeats - 1.
 struct GatePlacement {
     std::size_t first = 0;
     std::size_t repeats = 1;
@@ -42,29 +42,30 @@ struct GatePlacement {
 struct CfradialField {
     std::string name;
     std::size_t axis = 0;  // index in CfradialLayout::axes
-    // One element for each sweep of the volume; null if the sweep has no gates of this kind. At
-    // least one element is not null.
+    // One element for each sweep of the volume. It is null if the sweep has no gates of this kind.
+    // At least one element is not null.
     std::vector<const level2::SweepMoment*> sweeps;
     const level2::SweepMoment* kind = nullptr;  // the first of `sweeps` that is not null
-    std::size_t radials = 0;                    // radials that have gates of this kind
+    std::size_t radials = 0;                    // number of radials that have gates of this kind
 };
 
 struct CfradialLayout {
-    std::vector<RangeAxis> axes;  // at least one, perhaps without gates
+    std::vector<RangeAxis> axes;  // at least one axis, but it may have no gates
     std::vector<CfradialField> fields;
-    std::vector<std::size_t> first_radials;  // number of each sweep's first radial in the volume
+    // For each sweep, the number of its first radial in the volume.
+    std::vector<std::size_t> first_radials;
     std::size_t radials = 0;
 };
 
-// Real volumes need at most ten fields. More than this number means a damaged file.
+// Real volumes need at most ten fields. A volume that needs more than this number is damaged.
 inline constexpr std::size_t most_cfradial_fields = 64;
 
-// Returns the place of a moment's gates on an axis of the layout, which must fit them.
+// Returns the place of a moment's gates on an axis of the layout. The gates must fit onto the axis.
 [[nodiscard]] GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment);
 
-// Makes the layout, which refers to the volume; the volume must outlive the layout. Errors:
-// bad_argument for a sweep without radials, or whose arrays do not fit each other; unsupported for
-// more than most_cfradial_fields fields.
+// Makes the layout. It refers to the volume, which must outlive it. Errors: bad_argument for a
+// sweep without radials, or whose arrays do not fit each other; unsupported for more than
+// most_cfradial_fields fields.
 [[nodiscard]] Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges);
 
 }  // namespace stormcellar::netcdf

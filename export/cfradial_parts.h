@@ -1,6 +1,6 @@
-// export/cfradial_parts.h -- the parts of a CfRadial file; internal to export/cfradial.
+// export/cfradial_parts.h -- code that the writers of a CfRadial file share; internal to export.
 //
-// Threads   Hold library_mutex() (export/netcdf_builder.h).
+// Threads   Hold library_mutex() (export/netcdf_builder.h) during all calls.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ namespace stormcellar::netcdf {
 
 inline constexpr std::size_t string_length = 32;
 
-// The volume that all parts write, and the file into which they write it.
+// The volume that is written, and the file into which all writers of its variables write.
 struct CfradialParts {
     NetcdfBuilder& file;
     const level2::Volume& volume;
     const CfradialLayout& layout;
-    UtcTime reference;  // `time` counts from this whole second
+    UtcTime reference;  // the whole second from which `time` counts
     int deflate_level;
     int time, sweep, letter;  // dimensions
     std::vector<int> ranges;  // the dimension of each axis of the layout
@@ -28,7 +28,7 @@ struct CfradialParts {
     // Makes a variable with the attributes that every variable has.
     int variable(const char* name, int type, const std::vector<int>& dimensions,
                  const char* long_name, const char* units) const;
-    // Writes one word for each element of the dimension, or one word without a dimension.
+    // Writes one word for each element of the dimension, or a single word if there is no dimension.
     int words(const char* name, const std::vector<int>& dimensions, const char* long_name,
               const std::vector<std::string>& values) const;
 };

@@ -13,10 +13,10 @@ namespace {
 using level2::Radial;
 using level2::Sweep;
 
-using Known = std::optional<float>;  // none: Level II does not say
+using Known = std::optional<float>;  // none: Level II does not tell it
 
-// Returns the fixed angle of the VCP, else the median of the measured elevations. The median does
-// not shift if a few radials were taken while the antenna moved.
+// Returns the fixed angle of the VCP, or else the median of the measured elevations. A few radials
+// that were taken while the antenna moved do not shift the median.
 float fixed_angle_deg(const Sweep& sweep) {
     if (sweep.vcp_elevation_deg) return *sweep.vcp_elevation_deg;
     std::vector<float> elevations_deg;
@@ -49,8 +49,8 @@ std::vector<Value> of_each_radial(const CfradialParts& parts, Function function)
     return values;
 }
 
-// Writes a variable of floats, with _FillValue for each unknown value. If all values are unknown,
-// makes no variable.
+// Writes a variable of floats, with _FillValue for each unknown value. Makes no variable if all
+// values are unknown.
 int write_known(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
                 const char* units, const std::vector<Known>& values) {
     const auto known = [](const Known& value) { return value.has_value(); };
@@ -65,7 +65,7 @@ int write_known(const CfradialParts& parts, const char* name, int dimension, con
     return variable;
 }
 
-// Returns none for 0, which Level II writes for an unknown number.
+// Returns the value, or none for 0, which Level II writes for an unknown number.
 Known unless_zero(float value) {
     return value == 0 ? std::nullopt : Known{value};
 }
@@ -128,7 +128,7 @@ void write_instrument(const CfradialParts& parts) {
           [](const Radial& radial) { return radial.vertical_calibration_dbz; });
 }
 
-// Writes the facts of Level II about each radial that have no name in CfRadial.
+// Writes what Level II says about each radial and CfRadial has no name for.
 void write_level2_facts(const CfradialParts& parts) {
     const auto ints = [&](auto function) { return of_each_radial<int>(parts, function); };
     write_ints(parts, "azimuth_number", parts.time, "number of the radial in its sweep",

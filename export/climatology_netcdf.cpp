@@ -18,20 +18,20 @@ using grid::ValueTally;
 
 constexpr float fill = NC_FILL_FLOAT;
 constexpr int deflate_level = 1;
-// The thresholds are the edges of bins from 0 dBZ on.
+// The thresholds are the edges of bins. The first threshold is 0 dBZ, the edge of this bin.
 constexpr std::size_t first_threshold_bin = 7;
 constexpr std::size_t thresholds = ValueTally::bins - first_threshold_bin;
 
-// The places that were counted: columns, by their greatest values, or cells.
+// The places whose values were counted: columns (counted by their greatest value) or cells.
 struct Places {
-    const char* prefix;  // of the names of variables
-    const char* place;   // in texts
-    const char* value;   // in texts
+    const char* prefix;  // of the names of the variables
+    const char* place;   // word for a place, in texts
+    const char* value;   // word for a value, in texts
     const ValueTally& (*of)(const GridTally& tally);
     std::size_t layers;  // number of levels; 1 for columns
 };
 
-// Writes the variables of a climatology, each over all groups and places.
+// Writes the variables of a climatology. Each variable covers all groups and all places.
 class ClimatologyFile {
   public:
     ClimatologyFile(std::span<const TallyGroup> groups, const ClimatologyText& text)
@@ -139,8 +139,8 @@ class ClimatologyFile {
         return {group_, level_, map_.y, map_.x};
     }
 
-    // Calls `work` with each group's tally and the number of each place, in the order of the
-    // variables.
+    // Calls `work` with each group's tally and each place's number, in the order of the variables'
+    // elements.
     template <class Work>
     void for_each_place(const Places& places, Work work) const {
         for (const TallyGroup& group : groups_) {
@@ -192,8 +192,8 @@ class ClimatologyFile {
         return seen == 0 ? fill : static_cast<float>(hits) / static_cast<float>(seen);
     }
 
-    // Writes the frequencies. The dimension of thresholds follows the group, so each group is one
-    // block.
+    // Writes the frequencies. The dimension of thresholds follows that of groups, so each group is
+    // one block.
     void write_frequency(const Places& places) {
         std::vector<float> shares;
         for (const TallyGroup& group : groups_) {

@@ -1,16 +1,16 @@
 // export/climatology_netcdf.h -- writes statistics of many grids as CF netCDF.
 //
-// A group is an hour of the day, a month, or the whole time. For each group the file counts the
-// frames, and for each column the frames in which it was seen and not seen. Over the frames in
-// which a column was seen, the file gives how often its greatest value reached each threshold, the
-// maximum, means and quantiles of that value, and how often the echo top (18.5 dBZ) was at or above
-// each level. If cells were counted too, variables whose names begin with cell_ have the same
-// statistics, except echo tops, for each cell. If a column or cell was never seen, or never had a
-// value, its statistics have the fill value.
+// A group of grids is from one hour of the day, from one month, or from the whole time. For each
+// group the file counts the frames, and for each column the frames in which the column was seen and
+// not seen. From the frames in which a column was seen, the file gives how often the column's
+// greatest value reached each threshold; the maximum, means and quantiles of that value; and how
+// often the echo top (18.5 dBZ) was at or above each level. If cells were counted too, variables
+// whose names begin with cell_ give the same statistics for each cell, except echo tops. The
+// statistics of a column or cell that was never seen, or never had a value, are the fill value.
 //
 // Units     The attributes name them.
-// Memory    The counts of all groups; the file in memory needs about as much again.
-// Threads   Any thread; files are written one at a time.
+// Memory    The counts of all groups, and about as much again for the file in memory.
+// Threads   Any thread may call it; files are written one at a time.
 // Errors    bad_argument for no group, or groups of different grids; internal if netCDF refuses;
 //           those of the file system.
 #pragma once
@@ -32,9 +32,9 @@ struct TallyGroup {
     grid::GridTally tally;
 };
 
-// Name of the dimension of the groups, and global attributes of the file.
+// The name of the dimension of groups, and the global attributes of the file.
 struct ClimatologyText {
-    const char* group = "all";  // the name of the dimension: hour, month or all
+    const char* group = "all";  // name of the dimension: hour, month or all
     std::string time_coverage_start, time_coverage_end;
     std::string source;
 };

@@ -26,7 +26,7 @@ struct Dimensions {
     int time, z, y, x;
 };
 
-// One grid in the file, alone or together with grids of other moments.
+// A grid in the file. It is the only one, or the file has grids of other moments, too.
 struct Field {
     const Grid& grid;
     bool is_alone = true;
@@ -43,8 +43,8 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
     return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// Returns the cells in the order of the file: x fastest, then y, then z. The copy goes row by row,
-// so that both reads and writes stay within the processor's cache.
+// Returns the cells in the order of the file: x fastest, then y, then z. Copies row by row, so that
+// reads and writes both stay within the processor's cache.
 template <class Cell, class From>
 std::vector<Cell> in_file_order(const grid::GridSpec& spec, From from) {
     std::vector<Cell> cells(spec.cell_count());
@@ -68,7 +68,8 @@ void write_axes(NetcdfBuilder& file, const Grid& grid, const Dimensions& size) {
                      time_attributes(grid.frame_time ? "frame time" : "start of the volume"));
     const int z = file.variable("z", NC_DOUBLE, {size.z});
     write_attributes(file, z, height_attributes());
-    // A file has one time. netCDF's own chunk for an unlimited dimension would take 4 kB.
+    // A file has only one time. Without this, netCDF's chunk for an unlimited dimension would take
+    // 4 kB.
     file.chunks(time, {1});
     const auto instant = grid.frame_time.value_or(grid.time).time_since_epoch();
     file.write_first(time, std::chrono::duration<double>(instant).count());
@@ -113,7 +114,7 @@ DetailText describe_detail(grid::Detail detail, const Grid& grid) {
             "the rest lies in gaps or beyond the gates; below one half a cell is not seen"};
 }
 
-// Writes the facts of the provenance that differ from moment to moment.
+// Writes those facts of the provenance that differ between moments.
 void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
     const grid::Provenance& from = grid.provenance;
     file.text(variable, "method", from.method);
@@ -125,7 +126,7 @@ void write_making(NetcdfBuilder& file, int variable, const Grid& grid) {
     file.text(variable, "averaging", from.averaging);
 }
 
-// Returns the notes of all grids. A note of several grids appears once.
+// Returns the notes of all grids. A note that several grids have appears once.
 std::vector<std::string> notes_of(std::span<const Grid> grids) {
     std::vector<std::string> notes;
     for (const Grid& grid : grids) {
@@ -199,8 +200,8 @@ void write_details(NetcdfBuilder& file, const Field& one, const Dimensions& size
     }
 }
 
-// Writes the counts and weights of a mosaic. Counts and weights are known everywhere, and are 0
-// where no site sees a cell.
+// Writes the counts and weights of a mosaic. Every cell has them; they are 0 where no site sees the
+// cell.
 void write_overlap(NetcdfBuilder& file, const Field& one, const Dimensions& size,
                    int deflate_level) {
     const Grid& grid = one.grid;
@@ -243,7 +244,7 @@ void write_sites(NetcdfBuilder& file, const Grid& grid) {
     file.numbers(NetcdfBuilder::file, "station_antenna_altitude_m", altitudes_m);
 }
 
-// Returns the audit of a grid: a line for each class of ranges, over all sweeps.
+// Returns the audit of a grid as text: a line for each class of ranges, over all sweeps.
 std::string audit_text(const Grid& grid) {
     const std::string_view unit = grid::difference_unit(grid.moment);
     std::vector<std::string> lines = {"grid minus gates, scanned as the radar did"};
@@ -252,8 +253,8 @@ std::string audit_text(const Grid& grid) {
     return joined(lines, "\n");
 }
 
-// Writes the facts that all grids of the file share. For a single grid, also writes the facts that
-// differ between moments.
+// Writes the facts that all grids of the file share. If the file has a single grid, also writes the
+// facts that differ between moments.
 void write_provenance(NetcdfBuilder& file, std::span<const Grid> grids) {
     constexpr int global = NetcdfBuilder::file;
     const Grid& grid = grids.front();
@@ -317,7 +318,7 @@ Status check(const Grid& grid, const GridWriteOptions& options) {
     return {};
 }
 
-// Checks that one file can hold the grids: they must share the coordinates.
+// Checks that one file can hold the grids, which it can if they have the same coordinates.
 Status check_together(std::span<const Grid> grids) {
     if (grids.empty()) return fail(ErrorCode::bad_argument, "there is no grid to write");
     const Grid& first = grids.front();
@@ -343,8 +344,8 @@ Result<std::vector<std::byte>> build(std::span<const Grid> grids, const GridWrit
     NetcdfBuilder file;
     const grid::GridSpec& spec = grids.front().spec;
     const MapNames names = map_names(spec);
-    // The dimension is unlimited, so that programs can join files along it (ncrcat). The axes are
-    // written first, because write_axes() gives the dimension its one element.
+    // The dimension `time` is unlimited, so that programs can join files along it (ncrcat). The
+    // axes are written first, because write_axes() gives this dimension its one element.
     constexpr std::size_t unlimited = 0;
     const Dimensions size{file.dimension("time", unlimited),
                           file.dimension("z", spec.levels_m.size()),

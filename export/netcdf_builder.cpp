@@ -16,7 +16,7 @@ Mutex& library_mutex() {
 }
 
 NetcdfBuilder::NetcdfBuilder() {
-    // The name is not used, because the file exists in memory only.
+    // The file exists in memory only, so its name does not matter.
     open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
 }
 
@@ -55,8 +55,8 @@ void NetcdfBuilder::chunks(int variable, const std::vector<std::size_t>& sizes) 
 
 void NetcdfBuilder::chunk_cache(int variable, std::size_t bytes) {
     if (failure_ != NC_NOERR) return;
-    constexpr std::size_t slots = 101;       // of the hash table
-    constexpr float written_go_first = 1.0;  // a full chunk is not needed again
+    constexpr std::size_t slots = 101;       // number of slots of the hash table
+    constexpr float written_go_first = 1.0;  // evict full chunks first; they are not needed again
     good(nc_set_var_chunk_cache(id_, variable, bytes, slots, written_go_first), "chunk cache");
 }
 
@@ -172,7 +172,7 @@ Result<std::vector<std::byte>> NetcdfBuilder::finish() {
     }
     const auto* first = static_cast<const std::byte*>(memory.memory);
     std::vector<std::byte> bytes(first, first + memory.size);
-    std::free(memory.memory);  // the library leaves its buffer to the caller
+    std::free(memory.memory);  // the caller of the library must free its buffer
     return bytes;
 }
 

@@ -1,7 +1,7 @@
 // export/netcdf_builder.h -- builds a netCDF-4 file in memory; internal to export.
 //
-// The builder keeps the first failure: later calls do nothing, and finish() returns the failure. So
-// a writer may describe the whole file and check only the result of finish().
+// The builder keeps the first failure: later calls do nothing, and finish() returns that failure.
+// So a writer may describe the whole file and check only the result of finish().
 //
 // Threads   The netCDF library is not thread-safe, so hold library_mutex() while a builder lives.
 #pragma once
@@ -26,21 +26,21 @@ class NetcdfBuilder {
     NetcdfBuilder& operator=(const NetcdfBuilder&) = delete;
     ~NetcdfBuilder();
 
-    // A number for the file itself, whose attributes are the global ones. It also means "no
-    // variable".
+    // The number that means the file itself; its attributes are the global attributes. As the
+    // number of a variable, it means "no variable".
     static constexpr int file = -1;
 
-    // Makes a dimension. A size of 0 makes an unlimited dimension with nothing in it yet, as in
-    // netCDF.
+    // Makes a dimension. As in netCDF, a size of 0 makes an unlimited dimension, which is empty at
+    // first.
     int dimension(const char* name, std::size_t size);
-    // Makes a variable. Types are those of netcdf.h. A variable without dimensions is a scalar.
+    // Makes a variable. `type` is a type of netcdf.h. A variable without dimensions is a scalar.
     int variable(const char* name, int type, const std::vector<int>& dimensions);
     void chunks(int variable, const std::vector<std::size_t>& sizes);
-    // Sets how many bytes of a chunked variable stay unpacked in memory; by default netCDF keeps 16
-    // MiB or more.
+    // Sets how many bytes of a chunked variable stay unpacked in memory. The default of netCDF is
+    // 16 MiB or more.
     void chunk_cache(int variable, std::size_t bytes);
     void deflate(int variable, int level);
-    // Sets the fill value, in the type of the variable.
+    // Sets the fill value. It is converted to the type of the variable.
     void fill_value(int variable, double value);
     void text(int variable, const char* name, std::string_view value);
     void number(int variable, const char* name, double value);
@@ -48,20 +48,21 @@ class NetcdfBuilder {
     void numbers(int variable, const char* name, std::span<const double> values);
     void bytes(int variable, const char* name, std::span<const signed char> values);
 
-    // Writes a whole variable; netCDF converts the numbers to its type. Does nothing without
-    // values.
+    // Writes a whole variable. netCDF converts the numbers to its type. Does nothing if there are
+    // no values.
     void write(int variable, std::span<const double> values);
     void write(int variable, std::span<const float> values);
     void write(int variable, std::span<const int> values);
     void write(int variable, std::span<const signed char> values);
-    // Writes rows of equal length, one after the other, as a variable of characters.
+    // Writes a variable of characters. `characters` has its rows, which are equally long, one after
+    // the other.
     void write(int variable, std::span<const char> characters);
 
-    // Writes element 0 of a variable on an unlimited dimension; the dimension then has the length
-    // 1, which write() needs for the other variables.
+    // Writes element 0 of a variable on an unlimited dimension. The dimension then has the length
+    // 1, as write() needs for the other variables.
     void write_first(int variable, double value);
 
-    // Some rows of a variable with two dimensions, each over the whole second dimension.
+    // Rows of a variable with two dimensions. Each row covers the whole second dimension.
     struct Rows {
         std::size_t first = 0;
         std::size_t count = 0;
@@ -70,7 +71,7 @@ class NetcdfBuilder {
     void write_rows(int variable, const Rows& rows, std::span<const int> values);
     void write_rows(int variable, const Rows& rows, std::span<const signed char> values);
 
-    // Returns the bytes of the file. The builder is then closed.
+    // Returns the bytes of the file, and closes the builder.
     Result<std::vector<std::byte>> finish();
 
   private:
