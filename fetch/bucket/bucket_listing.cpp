@@ -9,7 +9,7 @@
 namespace stormcellar::fetch {
 namespace {
 
-// Encodes a text for a URL. If requested, keeps slashes, which separate the parts of a key.
+// Encodes a text for a URL. Keeps slashes, which separate the parts of a key, if that is requested.
 std::string percent_encoded(std::string_view text, bool keep_slashes) {
     std::string encoded;
     for (const char c : text) {

@@ -1,5 +1,5 @@
-// Loads the download module, stormcellar_fetch.so, when it is first needed. libcurl needs two dozen
-// libraries, which would slow down the start of all other commands.
+// Loads the download module, stormcellar_fetch.so, when it is first needed. Other commands do not
+// load it: libcurl needs two dozen libraries, which would slow down their start.
 #include "stormcellar/fetch/fetch.h"
 
 #include "base/load_module.h"

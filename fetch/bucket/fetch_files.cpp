@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // for one page
-// Most pages of the listing of one station and day. A page has 1,000 names, and a radar makes some
+constexpr std::size_t most_listing_bytes = std::size_t{4} << 20;  // limit for one page
+// Limit of the pages that list one station and day. A page has 1,000 names, and a radar makes some
 // 600 files a day.
 constexpr std::size_t most_pages = 20;
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
 
-// A file that is being downloaded. The bytes that have arrived are in a hidden file in the
-// directory of the download.
+// A file that is being downloaded. The bytes that have arrived are in a hidden file, in the
+// directory for the downloaded files.
 struct Download {
     BucketObject object;
     fs::path target, part;
@@ -56,8 +56,8 @@ void set_time(const fs::path& path, UtcTime time) {
     (void)::utimensat(AT_FDCWD, path.c_str(), times, 0);
 }
 
-// Returns the name of a file while it is being downloaded. The name includes the tag, so that parts
-// of different contents do not mix.
+// Returns the name that a file has while it is being downloaded. The name includes the tag, so that
+// parts of different contents do not mix.
 std::string part_name_of(const BucketObject& object) {
     const std::int64_t modified = object.modified ? object.modified->time_since_epoch().count() : 0;
     const std::string contents =
@@ -66,7 +66,7 @@ std::string part_name_of(const BucketObject& object) {
                        xxh3_64(std::as_bytes(std::span{contents})));
 }
 
-// Returns true if the tag is one quoted word. Other tags must not be used, because the tag becomes
+// Returns true if the tag is one quoted word. No other tag may be used, because the tag becomes
 // part of a header.
 bool is_plain_tag(std::string_view tag) {
     const auto is_plain = [](char c) { return c > ' ' && c < 0x7F && c != '"'; };
@@ -74,7 +74,8 @@ bool is_plain_tag(std::string_view tag) {
            std::ranges::all_of(tag.substr(1, tag.size() - 2), is_plain);
 }
 
-// Returns true for names of raw files: letters, digits, '_', '-' and dots that are not at the ends.
+// Returns true for a name that a raw file may have: letters, digits, '_', '-', and dots that are
+// not at its ends.
 bool is_plain_name(std::string_view name) {
     const auto is_plain = [](char c) {
         return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
@@ -124,7 +125,7 @@ class Fetching {
             auto listing = outcome.good
                                ? parse_listing(*body)
                                : Result<ListingPage>{fail(ErrorCode::io, "{}", outcome.reason)};
-            // The listing may have been truncated in transfer, so ask for it again.
+            // The listing may have been cut in transfer, so ask for it again.
             const bool again = outcome.good ? !listing : outcome.may_be_tried_again;
             if (!listing && again && tries + 1 < request_.tries) {
                 list(prefix, token, page, tries + 1);
@@ -147,7 +148,7 @@ class Fetching {
                        tries == 0 ? std::chrono::milliseconds{0} : wait_before(tries - 1));
     }
 
-    // A listing may name objects that were not requested.
+    // Takes an object of a listing. A listing may also name objects that were not requested.
     void take(const std::string& prefix, BucketObject object) {
         const std::string name{name_of_key(object.key)};
         const auto start = start_in_name(name);
@@ -269,7 +270,7 @@ class Fetching {
     const FetchRequest& request_;
     Transfers& transfers_;
     FetchReport report_;
-    std::map<std::string, std::string> taken_;  // keys of the taken files, by file name
+    std::map<std::string, std::string> taken_;  // keys of the files that were taken, by file name
     std::size_t failed_files_ = 0;
 };
 

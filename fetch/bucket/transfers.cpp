@@ -9,7 +9,7 @@
 namespace stormcellar::fetch {
 namespace {
 
-constexpr int longest_poll_ms = 100;  // how often the flag is checked
+constexpr int longest_poll_ms = 100;  // time between two checks of the flag
 constexpr long connect_timeout_s = 20;
 constexpr long http_ok = 200;
 constexpr long http_partial = 206;
@@ -20,13 +20,13 @@ constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{1} << 20;
 constexpr std::chrono::hours most_retry_after{24};
 
-// Returns true for statuses that another try would not change: 403, 404 and 410.
+// Returns true if another try would get the same status: 403, 404 or 410.
 bool is_for_good(long status) {
     return status == 403 || status == 404 || status == 410;
 }
 
-// Returns true if the same request may succeed later, for example after errors of the network or of
-// a busy server.
+// Returns true if the same request may succeed later, for example after an error of the network or
+// while a server is busy.
 bool is_passing(CURLcode code, long status) {
     switch (code) {
         case CURLE_OK:
@@ -54,8 +54,8 @@ struct Transfers::Running {
     CURL* easy = nullptr;
     bool has_begun = false;
     bool was_refused = false;
-    bool has_wrong_range = false;   // the server sends a different part than requested
-    std::uint64_t error_bytes = 0;  // size of the body of an error
+    bool has_wrong_range = false;   // the server sends another part than the requested one
+    std::uint64_t error_bytes = 0;  // size of the body, if the answer is an error
     curl_slist* headers = nullptr;
     std::array<char, CURL_ERROR_SIZE> error{};
 
@@ -66,7 +66,7 @@ struct Transfers::Running {
         if (easy != nullptr) curl_easy_cleanup(easy);
         curl_slist_free_all(headers);
     }
-    // Returns true if the part begins where it was requested: "Content-Range: bytes 500-999/1000".
+    // Returns true if the part begins at the requested byte: "Content-Range: bytes 500-999/1000".
     [[nodiscard]] bool has_right_range() const {
         curl_header* header = nullptr;
         if (curl_easy_header(easy, "Content-Range", 0, CURLH_HEADER, -1, &header) != CURLHE_OK) {
@@ -84,7 +84,7 @@ struct Transfers::Running {
         auto& running = *static_cast<Running*>(self);
         const long status = running.status();
         const std::size_t length = size * count;
-        // Drop the body of an error, and end the transfer if the body is too long.
+        // Drop the body of an error. If the body is too long, end the transfer.
         if (status != http_ok && status != http_partial) {
             running.error_bytes += length;
             return running.error_bytes <= most_error_bytes ? length : 0;
@@ -111,7 +111,8 @@ Result<std::unique_ptr<Transfers>> Transfers::make(TransferOptions options) {
     transfers->multi_ = curl_multi_init();
     if (transfers->multi_ == nullptr)
         return fail(ErrorCode::exhausted, "libcurl cannot be started");
-    // Limit the connections that stay open: over TLS each takes 4 MB, most of it for certificates.
+    // Limit the connections that stay open, because over TLS each takes 4 MB, most of it for
+    // certificates.
     curl_multi_setopt(transfers->multi_, CURLMOPT_MAXCONNECTS, static_cast<long>(options.parallel));
     return transfers;
 }

@@ -1,4 +1,4 @@
-// fetch/bucket/transfers.h -- HTTP GETs, several at a time, with libcurl.
+// fetch/bucket/transfers.h -- makes HTTP GETs with libcurl, several at a time.
 //
 // The module stormcellar_fetch and the program stormcellar-feed use this; both link libcurl.
 //
@@ -24,23 +24,24 @@
 
 namespace stormcellar::fetch {
 
-// One object to get.
+// An object to get.
 struct Transfer {
     std::string url;
     std::uint64_t from_byte = 0;  // 0: the whole object
-    // The tag (ETag) of the object; sent if only a part is requested. If the object has changed,
-    // the server answers 412.
+    // The tag (ETag) of the object. It is sent if only a part is requested. The server answers 412
+    // if the object has changed.
     std::string tag;
-    // Takes the next bytes of the body. If it returns false, the transfer fails for good.
+    // Takes the next bytes of the body. If it returns false, the transfer fails and is not tried
+    // again.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
-    // Called before the body of an answer. `from_byte` is where the body begins: 0 if the server
-    // sends the whole object although a part was requested. If it returns false, the transfer fails
-    // for good.
+    // Called before the body of an answer. `from_byte` is where the body begins; it is 0 if the
+    // server sends the whole object although a part was requested. If `begin` returns false, the
+    // transfer fails and is not tried again.
     std::function<bool(std::uint64_t from_byte)> begin;
     struct Outcome {
         bool good = false;
         bool may_be_tried_again = false;
-        // the server cannot continue at from_byte; only the whole object can be fetched
+        // The server cannot continue at from_byte, so only the whole object can be fetched.
         bool part_is_useless = false;
         bool is_refused = false;              // the server answered 403, 404 or 410
         std::string reason;                   // set if the transfer failed
@@ -55,8 +56,8 @@ struct Transfer {
 
 struct TransferOptions {
     int parallel = 8;
-    std::chrono::seconds stall{30};   // a transfer without a byte for this long fails
-    std::chrono::seconds longest{0};  // for a whole transfer; 0: no limit
+    std::chrono::seconds stall{30};   // a transfer fails if no byte comes for this long
+    std::chrono::seconds longest{0};  // limit of a whole transfer; 0: no limit
     long most_redirects = 5;
     std::string proxy = {};             // a URL; empty: none, or the environment's proxy
     bool is_direct = false;             // ignore proxies of the environment

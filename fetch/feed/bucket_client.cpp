@@ -9,11 +9,12 @@
 namespace stormcellar::feed {
 namespace {
 
-// Concurrent connections. Each takes memory, most of it for certificates.
+// Number of connections at the same time. Each takes memory, most of it for certificates.
 constexpr int parallel = 12;
 constexpr std::chrono::seconds longest_transfer{60};
 constexpr std::uint64_t most_page_bytes = std::uint64_t{1} << 20;
-// A directory holds at most 999 chunks of each round of the ring; a page holds 1,000.
+// A page has 1,000 keys, and a directory has at most 999 chunks of each round of the ring of volume
+// numbers.
 constexpr std::size_t most_pages = 4;
 constexpr std::size_t longest_token = 1024;
 

@@ -5,13 +5,13 @@
 // the environment. It limits the bytes, the time and the pages of each answer.
 //
 // Threads   One thread at a time. run() calls the functions that take answers.
-// Errors    Passed to the function that takes the answer. The message gives the cause.
-//           busy        may pass: no connection, a timeout, 429, 500 and above, or cut off
+// Errors    They are passed to the function that takes the answer. The message gives the cause.
+//           busy        may pass: no connection, a timeout, 429, 500 and above, or a cut transfer
 //           not_found   404 and 410
 //           permission  403
 //           over_budget more bytes or pages than are plausible
 //           truncated   fewer bytes than the listing says
-//           corrupt     not a listing
+//           corrupt     the answer is not a listing
 //           io          any other answer
 #pragma once
 
@@ -43,8 +43,8 @@ class BucketClient {
     BucketClient& operator=(const BucketClient&) = delete;
     ~BucketClient();
 
-    // Asks for a listing after `wait`, and passes the result to `taken`. Joins the pages of a long
-    // listing; if the question asks for fewer than 1,000 keys, takes only the first page.
+    // Asks for a listing after `wait`, and passes the result to `taken`. Joins all pages of a long
+    // listing. But if the question asks for fewer than 1,000 keys, takes only the first page.
     void list(fetch::ListingQuestion question, std::chrono::milliseconds wait,
               std::function<void(Result<fetch::ListingPage>)> taken);
     // Asks for an object that must have `size` bytes, and passes its bytes to `taken`.
@@ -53,8 +53,8 @@ class BucketClient {
     // second.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
 
-    // Returns the wait that the server requested in its last answer; 0: none. Meant for the
-    // functions that take answers.
+    // Returns the wait that the server requested in its last answer; 0 if it requested none. Call
+    // it from the functions that take answers.
     [[nodiscard]] std::chrono::seconds retry_after() const { return retry_after_; }
 
   private:

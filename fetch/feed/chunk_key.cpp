@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t compact_length = 15, dash_at = 8;
 constexpr UtcTime first_time{std::chrono::sys_days{1991y / 1 / 1}};
 
-// Returns the time as in names of chunks: "20220317-000842".
+// Returns the time in the form that names of chunks have: "20220317-000842".
 std::string dashed(UtcTime time) {
     std::string text = format_compact(time);
     text[dash_at] = '-';
@@ -59,7 +59,8 @@ std::optional<ChunkKey> parse_chunk_key(std::string_view key, UtcTime now) {
     const auto number = parse_volume_number(key.substr(first + 1, second - first - 1));
     const std::string_view name = key.substr(second + 1);
     const auto chunk = level2::parse_chunk_name(name);
-    // Write the key again and compare, because names of LDM have more forms than keys.
+    // Write the key again and compare, because names of LDM may have other forms, which keys may
+    // not have.
     if (!is_icao(station) || !number || !chunk || level2::to_string(*chunk) != name)
         return std::nullopt;
     const auto time = parse_dashed(chunk->volume);

@@ -5,7 +5,7 @@
 // of exactly this form are accepted: the name of a station, a volume number from 1 to 999 without
 // leading zeros, a valid time, and a chunk number of three digits.
 //
-// Units     Times are the radar's: the start of the volume.
+// Units     Times are the start of the volume by the radar's clock.
 // Threads   Plain values and pure functions.
 // Errors    None. parse_chunk_key() returns std::nullopt for a key of another form.
 #pragma once
@@ -23,13 +23,13 @@ namespace stormcellar::feed {
 
 inline constexpr int last_volume = 999;  // the next volume is number 1
 inline constexpr int last_chunk = 999;
-// A key whose time is further in the future than this is rejected, so that it does not count as the
-// newest forever.
+// A key is rejected if its time is further in the future than this. Otherwise it would count as the
+// newest for ever.
 inline constexpr std::chrono::hours tolerated_clock_error{24};
 
 struct VolumeId {
-    UtcTime time;    // first, so that volumes are sorted by time
-    int number = 0;  // directory, 1 to 999
+    UtcTime time;    // the first member, so that volumes are sorted by time
+    int number = 0;  // the directory, 1 to 999
     auto operator<=>(const VolumeId&) const = default;
 };
 
@@ -44,13 +44,13 @@ struct ChunkKey {
 [[nodiscard]] std::optional<ChunkKey> parse_chunk_key(std::string_view key, UtcTime now);
 [[nodiscard]] std::string to_string(const ChunkKey& key);
 
-// Returns the volume number of a directory name such as "494"; none for any other text.
+// Returns the volume number in the name of a directory, such as "494"; none for any other text.
 [[nodiscard]] std::optional<int> parse_volume_number(std::string_view text);
-// Returns the volume number `steps` after `number`; 1 follows 999.
+// Returns the volume number that comes `steps` after `number`. 1 follows 999.
 [[nodiscard]] int volume_number_after(int number, int steps = 1);
-// Returns "KTLX/494/", the prefix of the keys of a directory.
+// Returns the prefix of the keys of a directory, such as "KTLX/494/".
 [[nodiscard]] std::string directory_of(std::string_view station, int number);
-// Returns "KTLX/494/20220317-000842", the prefix of the keys of a volume.
+// Returns the prefix of the keys of a volume, such as "KTLX/494/20220317-000842".
 [[nodiscard]] std::string prefix_of(std::string_view station, const VolumeId& volume);
 
 }  // namespace stormcellar::feed

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_stations = 400;
 
-// The shipped file has all of these tables, so tests/fetch/feed/feed_config_test.cpp, which loads
-// it, fails if a name is missing here.
+// Tables of other programs. The shipped file has all of them, and
+// tests/fetch/feed/feed_config_test.cpp loads it, so the test fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
                                                  "catalog", "watch", "partials", "status",
                                                  "station", "web",   "pull"};

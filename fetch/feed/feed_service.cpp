@@ -45,7 +45,7 @@ FeedService::FeedService(FileSystem& file_system, const FeedConfig& config, Feed
         stations_.push_back(std::make_unique<StationFeed>(
             station, written, FeedTools{*client_, drop_, lines_, config_}, chance()));
     }
-    // Start at random times, so that stations do not ask all at once.
+    // Let stations start at random times, so that they do not all ask at once.
     std::uniform_int_distribution<std::chrono::milliseconds::rep> some(0, config_.every.count());
     for (const auto& station : stations_)
         station->begin(std::chrono::milliseconds{some(chance)});

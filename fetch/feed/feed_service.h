@@ -1,8 +1,8 @@
 // fetch/feed/feed_service.h -- follows the configured stations on one thread, fills the drop
 // directory and writes the status file.
 //
-// A station continues with its last volumes in the drop directory, if they began less than 20
-// minutes ago. Otherwise it begins with the volume before the newest.
+// If the last volumes of a station in the drop directory began less than 20 minutes ago, the
+// station continues with them. Otherwise it begins with the volume before the newest.
 //
 // Threads   One thread at a time.
 // Errors    open(): the directories cannot be made or read, or libcurl cannot be started.
@@ -28,7 +28,7 @@ class FeedService {
     FeedService& operator=(const FeedService&) = delete;
     ~FeedService() = default;
 
-    // Follows the stations until the flag is set. Calls `turn` ten times a second or more often.
+    // Follows the stations until the flag is set. Calls `turn` at least ten times a second.
     void run(const std::atomic<bool>& stop, const std::function<void()>& turn);
     // Writes status.json if its contents have changed. Errors: errors of writing.
     Status publish();
@@ -47,7 +47,7 @@ class FeedService {
     std::vector<std::unique_ptr<StationFeed>> stations_;
     std::uint64_t removed_ = 0;
     SteadyTime next_prune_{};
-    std::string published_;  // last status, without its time
+    std::string published_;  // the last status, without the time at which it was written
 };
 
 }  // namespace stormcellar::feed

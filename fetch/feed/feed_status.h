@@ -18,7 +18,7 @@ struct StationStatus {
     std::string error;                  // why the last request failed; empty: it succeeded
     std::optional<UtcTime> answered;    // when the bucket last answered for this station
     std::optional<UtcTime> next_try;    // after a failure
-    bool is_searching = true;           // searching for the newest volume
+    bool is_searching = true;           // the newest volume is being searched
     bool is_silent = false;             // no new chunk for 10 minutes
     std::optional<VolumeId> volume;     // the volume being followed
     int chunk = 0;                      // the highest chunk that was written or given up

@@ -1,5 +1,5 @@
 // stormcellar-feed: follows the public chunk bucket for some stations. The text below describes its
-// usage.
+// command line.
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -19,8 +19,8 @@ namespace stormcellar::feed {
 namespace {
 
 constexpr std::string_view program = "stormcellar-feed";
-// Time between checks for signals, and time between writes of the status, which also feed the
-// watchdog.
+// Time between checks for signals, and time between reports: a report writes the status and feeds
+// the watchdog.
 constexpr std::chrono::milliseconds between_looks{100}, between_reports{2000};
 
 constexpr std::string_view usage =
@@ -61,7 +61,8 @@ int run_until_signal(FeedService& service, const Signals& signals, Notifier& not
     return number;
 }
 
-// Returns a service with the new configuration; none if that fails and the old service must go on.
+// Returns a service with the new configuration. Returns none if that fails; the old service then
+// goes on.
 std::unique_ptr<FeedService> reloaded(const std::filesystem::path& file) {
     const auto fresh = load_with_stations(file);
     auto opened = fresh.and_then(

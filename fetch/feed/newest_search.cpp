@@ -6,7 +6,7 @@
 namespace stormcellar::feed {
 namespace {
 
-// A probe asks for several keys, because some may not be keys of chunks.
+// A probe asks for several keys, because some of them may not be keys of chunks.
 constexpr int keys_of_a_probe = 10;
 
 }  // namespace
@@ -54,7 +54,7 @@ void NewestSearch::take_oldest(const fetch::ListingPage& answer, UtcTime now) {
             key && key->station == station_ && key->volume.number == numbers_.front();
         if (is_here && (!newest || key->volume.time > *newest)) newest = key->volume.time;
     }
-    // Skip a directory that is empty or was emptied in the meantime.
+    // The directory is empty, or was emptied after it was listed, so skip it.
     if (!newest) numbers_.erase(numbers_.begin());
     step_ = newest ? Step::bisect : numbers_.empty() ? Step::done : Step::oldest;
     if (!newest) return;
@@ -73,7 +73,8 @@ std::optional<NewestSearch::Start> NewestSearch::start() const {
     const int newest = numbers_[newest_];
     const int before = newest == 1 ? last_volume : newest - 1;
     const bool has_before = std::ranges::binary_search(numbers_, before);
-    // All directories between the first and the newest have newer volumes than the first.
+    // All directories between the first and the newest have volumes that are newer than the
+    // first's.
     const bool is_between = has_before && newest_ >= 2;
     return Start{has_before ? before : newest,
                  is_between ? first_time_ : first_time_ - earlier_round};

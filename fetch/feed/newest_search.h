@@ -1,12 +1,12 @@
 // fetch/feed/newest_search.h -- finds the newest volume of a station in the ring of volume numbers.
 //
 // The first listing names the directories that exist. In the order of their numbers, their times
-// rise up to the newest volume; the next directory, if any, has the oldest volume, and from there
-// the times rise again. So the search bisects with the newest time of the first directory. A
-// directory with a newer time is at or before the newest volume; any other directory after the
-// first is behind the newest volume. This takes some 12 listings, however full the ring is. If a
-// station has jumped to another number, the times may fall more than once, and the search may end
-// at any fall; StationFollower searches further if no chunks follow.
+// rise up to the newest volume. The next directory, if any, has the oldest volume, and from there
+// the times rise again. So the search bisects, and compares each time with the newest time of the
+// first directory. A directory with a newer time is at or before the newest volume; any other
+// directory after the first is behind it. This takes some 12 listings, however full the ring is. If
+// a station has jumped to another number, the times may fall more than once, and the search may end
+// at any such fall. Then no chunks follow there, and StationFollower searches further.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -26,13 +26,13 @@ class NewestSearch {
 
     // Returns the next question to ask. Call it until is_done().
     [[nodiscard]] fetch::ListingQuestion question() const;
-    // Takes the answer to question().
+    // Takes the answer to the question that question() returned.
     void take(const fetch::ListingPage& answer, UtcTime now);
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
-    // The place at which StationFollower begins: the directory before the newest, so that a
-    // complete volume comes first, or the newest directory if no directory is before it. Chunks
-    // older than `from` belong to an earlier round of the volume numbers.
+    // The place at which StationFollower begins. This is the directory before the newest, so that a
+    // complete volume comes first, or the newest directory if there is none before it. Chunks older
+    // than `from` belong to an earlier round of the volume numbers.
     struct Start {
         int number = 0;
         UtcTime from;

@@ -13,7 +13,7 @@ constexpr std::uint64_t most_chunk_bytes = std::uint64_t{4} << 20;
 constexpr int most_bad_tries = 3, most_tries = 8;
 constexpr std::chrono::milliseconds longest_between_chunks{60'000};
 
-// Returns true for errors of one chunk, while the server works.
+// Returns true if the error concerns only one chunk, so that the server itself works.
 bool is_of_the_chunk(ErrorCode code) {
     return code == ErrorCode::truncated || code == ErrorCode::over_budget ||
            code == ErrorCode::not_found || code == ErrorCode::permission || code == ErrorCode::io;
@@ -67,7 +67,7 @@ void StationFeed::take(Result<fetch::ListingPage> answer) {
     get_next();
 }
 
-// Handles chunks that need no request, and asks for the first chunk that needs one.
+// Handles the chunks that need no request, and then requests the first chunk that needs one.
 void StationFeed::get_next() {
     while (!wanted_.empty()) {
         const StationFollower::Chunk& chunk = wanted_.front();
@@ -119,13 +119,13 @@ void StationFeed::give_up(const Error& why) {
     finish_chunk();
 }
 
-// Reports that a failure is over. Call it only after a whole turn has worked, because the bucket
-// may answer while the disk is full.
+// Notes that a failure is over. Call it only after a whole turn has worked: the bucket may answer
+// and the disk still be full.
 void StationFeed::note_good() {
     if (status_.error.empty()) return;
     status_.error.clear();
     status_.next_try.reset();
-    quiet_since_ += steady_now() - failing_since_;  // a time of failures is not silence
+    quiet_since_ += steady_now() - failing_since_;  // do not count a time of failures as silence
     if (tools_.lines.allow(steady_now())) say(LogLevel::info, "{}: continues", station_);
 }
 

@@ -1,15 +1,15 @@
 // fetch/feed/station_feed.h -- copies the chunks of one station from the bucket into the drop
 // directory.
 //
-// A turn is one listing, followed by the new chunks that it names, in the order of their numbers.
-// The station makes one request at a time. A chunk that is in the drop directory with its size is
-// not fetched again, for example after a restart. If a chunk is smaller or larger than listed, or
-// the bucket refuses it, the station gives the chunk up after three tries. If requests fail for
-// another reason, it gives the chunk up after eight tries. A chunk that is listed with no bytes, or
+// A turn is one listing, followed by requests for the new chunks in it, in the order of their
+// numbers. The station makes one request at a time. A chunk that is in the drop directory with the
+// right size is not fetched, for example after a restart. If a chunk is smaller or larger than
+// listed, or the bucket refuses it, the station tries three times and then gives the chunk up. If
+// requests fail for another reason, it tries eight times. A chunk that is listed with no bytes, or
 // with more than 4 MiB, is given up at once. After a failure the station pauses, and then lists
 // again.
 //
-// Threads   The thread of BucketClient::run().
+// Threads   All calls must come from the thread of BucketClient::run().
 // Errors    None. status() and the log report failures.
 #pragma once
 
@@ -26,7 +26,7 @@
 
 namespace stormcellar::feed {
 
-// All stations share these. They must outlive the stations.
+// The objects that all stations share. They must outlive the stations.
 struct FeedTools {
     BucketClient& client;
     FeedDrop& drop;
@@ -36,7 +36,7 @@ struct FeedTools {
 
 class StationFeed {
   public:
-    // `written` are the volumes to continue with (see StationFollower).
+    // `written` lists the volumes with which to continue (see StationFollower).
     StationFeed(std::string station, const std::vector<VolumeId>& written, FeedTools tools,
                 unsigned seed);
     StationFeed(const StationFeed&) = delete;
@@ -65,13 +65,13 @@ class StationFeed {
     PollPace pace_;
     StationFollower follower_;
     std::deque<StationFollower::Chunk> wanted_;
-    bool has_news_ = false;  // in this turn
-    int tries_ = 0;          // failed tries of tried_, over all turns
+    bool has_news_ = false;  // this turn has had a new chunk
+    int tries_ = 0;          // how often tried_ has failed, over all turns
     ChunkKey tried_;
-    std::optional<UtcTime> modified_;  // when the bucket got the last chunk
+    std::optional<UtcTime> modified_;  // when the last chunk came into the bucket
     std::chrono::milliseconds between_chunks_{0};
     SteadyTime failing_since_{};
-    // Time of the last chunk, plus the time during which turns failed since then.
+    // The time of the last chunk, plus the time that failures have lasted since then.
     SteadyTime quiet_since_ = steady_now();
     StationStatus status_;
 };

@@ -6,15 +6,15 @@
 namespace stormcellar::feed {
 namespace {
 
-// A radar's clock may be set back by up to this time between two volumes.
+// Between two volumes, a radar's clock may be set back by up to this time.
 constexpr std::chrono::hours clock_set_back{1};
 constexpr std::chrono::seconds grace{60}, between_looks{15};
-// While chunks come, every fourth listing without news is a listing of the next directory, not of
-// the volume. A silent station more likely continues with a new volume, so three of four listings
-// without news are then of the next directory.
+// While chunks come, every fourth listing without news asks for the next directory, and the other
+// three ask for the volume. For a silent station three of four ask for the next directory, because
+// the station more likely continues with a new volume.
 constexpr int every_fourth = 4;
-// A search around the ring begins this many numbers after the last volume, and then goes in steps
-// of 13. Because 13 and 999 have no common divisor, it visits every number.
+// A search around the ring of volume numbers begins this far after the last volume, and then goes
+// in steps of 13. It visits every number, because 13 and 999 have no common divisor.
 constexpr int ring_step = 13, first_step = 3;
 
 }  // namespace
@@ -96,7 +96,8 @@ fetch::ListingQuestion StationFollower::question_of(const Followed& volume) cons
 fetch::ListingQuestion StationFollower::question_of_directory(bool is_silent) {
     const int expected = volume_number_after(last_.number);
     const int number = next_directory(is_silent);
-    // In any other directory than the expected one, only a newer volume can be the next volume.
+    // In the expected directory, the next volume may have an earlier time, because the clock may
+    // have been set back. In any other directory, only a newer volume can be the next one.
     const std::string after = number == expected
                                   ? prefix_of(station_, {last_.time - clock_set_back, number})
                                   : prefix_of(station_, {last_.time, number}) + "~";
@@ -127,14 +128,14 @@ StationFollower::News StationFollower::take_search(const fetch::ListingPage& ans
         search_.emplace(station_);
         return {};
     }
-    // Pretend that the volume before the found directory was the last, so that the found directory
-    // is listed next.
+    // Pretend that the last volume was in the directory before the found one, so that the found
+    // directory is listed next.
     last_ = {start->from + clock_set_back, volume_number_after(start->number, last_volume - 1)};
     search_.reset();
     return {{}, true};
 }
 
-// Returns the chunks that answer the question, sorted; other keys in the answer are ignored.
+// Returns the chunks in the answer that the question asked for, sorted. Ignores other keys.
 std::vector<StationFollower::Chunk> StationFollower::chunks_in(const fetch::ListingPage& answer,
                                                                UtcTime utc) const {
     std::vector<Chunk> chunks;
@@ -178,7 +179,7 @@ StationFollower::News StationFollower::new_in(const fetch::ListingPage& answer, 
     }
     if (asked_ == Asked::current) add_new_of(*current_);
     if (!news.chunks.empty()) return news;
-    // In the directory of the current volume, only a later volume is new.
+    // If this is the directory of the present volume, only a later volume in it is new.
     const auto next = std::ranges::find_if(listed, [&](const Chunk& chunk) {
         return !current_ || (chunk.key.volume != current_->id &&
                              (asked_ == Asked::directory || current_->id < chunk.key.volume));

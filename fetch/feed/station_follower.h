@@ -2,15 +2,16 @@
 // chunks in the answer.
 //
 // The follower follows one volume. It lists the keys from the first missing chunk on, so that it
-// sees both late and new chunks. When the volume is complete, and at every fourth listing without
-// news, it lists the directory of the next number instead, but only keys from at most an hour
-// before this volume, because older keys belong to an earlier round of the ring of volume numbers
-// (1 follows 999). It also follows a later volume in the same directory. If it left the last volume
-// with gaps or without its end, it lists that volume again every 15 s for a minute. If a station is
-// silent, it lists the next directory more often, and also directories where the station may have
-// continued: two numbers further, number 1, and in steps around the whole ring.
+// sees late chunks as well as new ones. When the volume is complete, and at every fourth listing
+// without news, it lists the directory of the next number instead. There it asks only for keys from
+// at most an hour before this volume, because older keys belong to an earlier round of the ring of
+// volume numbers (1 follows 999). It also follows a later volume in the same directory. If it left
+// the last volume with gaps or without its end, it lists that volume again every 15 s for a minute.
+// If a station is silent, it lists the next directory more often. It then also lists directories
+// where the station may have continued: two numbers further, number 1, and in steps around the
+// whole ring.
 //
-// The caller asks the bucket, writes the chunks and passes the time.
+// The caller asks the bucket, writes the chunks, and passes the time.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -35,11 +36,12 @@ class VolumeChunks {
         return done_.test(static_cast<std::size_t>(number));
     }
     void add(int number, level2::ChunkKind kind);
-    // Returns the largest number up to which no chunk is missing; 0 if the first is missing.
+    // Returns the largest number for which no chunk is missing up to it; 0 if the first chunk is
+    // missing.
     [[nodiscard]] int without_gap() const;
     [[nodiscard]] bool is_whole() const { return end_ > 0 && without_gap() >= end_; }
     [[nodiscard]] int highest() const { return highest_; }
-    // Returns how many chunks are missing below highest(), plus 1 if the end has not come.
+    // Returns how many chunks are missing below highest(), plus 1 if the last chunk has not come.
     [[nodiscard]] int missing() const;
 
   private:
@@ -49,8 +51,8 @@ class VolumeChunks {
 
 class StationFollower {
   public:
-    // `written` are the volumes to continue with, oldest first, at most two. If there are none, the
-    // follower searches for the newest volume.
+    // `written` lists the volumes with which to continue, oldest first, at most two. If it is
+    // empty, the follower searches for the newest volume.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 
     [[nodiscard]] fetch::ListingQuestion question(SteadyTime now, bool is_silent);
@@ -62,9 +64,9 @@ class StationFollower {
     };
     struct News {
         std::vector<Chunk> chunks;  // in the order of their numbers
-        bool is_urgent = false;     // ask the next question at once
+        bool is_urgent = false;     // the caller may ask the next question at once
     };
-    // Takes the answer to the last question, and returns its new chunks.
+    // Takes the answer to the last question, and returns the new chunks in it.
     [[nodiscard]] News take(const fetch::ListingPage& answer, UtcTime utc, SteadyTime now);
     // Notes that a chunk was written or given up.
     void note_done(const ChunkKey& key);

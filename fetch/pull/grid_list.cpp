@@ -31,7 +31,7 @@ std::optional<cache::GridName> name_of(const json& entry, UtcTime now) {
     if (!entry.is_object()) return std::nullopt;
     const auto moment = level2::moment_from_name(text_at(entry, "moment"));
     const std::string text = text_at(entry, "time");
-    // parse_utc() also accepts "now" and "-1h", which are no times of grids.
+    // Refuse "now" and "-1h", which parse_utc() accepts but which are no times of grids.
     if (!moment || !text.ends_with('Z')) return std::nullopt;
     const auto time = parse_utc(text, now);
     if (!time || !cache::is_possible(*time)) return std::nullopt;
@@ -54,8 +54,8 @@ Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> 
                                                      const PullSource& source, UtcTime from,
                                                      UtcTime now) {
     const auto* const begin = reinterpret_cast<const char*>(text.data());
-    // Drop values that are nested deeper than in a list, because a text of nothing but brackets
-    // would take a hundred times its size in memory.
+    // Drop values that are nested more deeply than a list of grids is. A text that consists of
+    // brackets would take a hundred times its size in memory.
     const auto is_kept = [](int depth, json::parse_event_t, const json&) { return depth <= 3; };
     const json all = json::parse(begin, begin + text.size(), is_kept, false);
     if (!all.is_object() || !all.contains("grids") || !all["grids"].is_array()) {

@@ -16,16 +16,16 @@
 
 namespace stormcellar::pull {
 
-// The server lists at most this many of the newest grids.
+// A server lists only its newest grids, at most this many.
 inline constexpr std::size_t most_listed = 10'000;
-// Limit of the text of a list.
+// Limit of the size of a list.
 inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);
 [[nodiscard]] std::string file_url(const PullSource& source, const cache::GridName& grid);
 
-// Returns the partials (grids of one site on a domain's cells) of the source's domains that are not
-// older than `from` and not in the future, newest first.
+// Returns the partials (grids of one site on the cells of a domain) of the source's domains, newest
+// first. Leaves out partials that are older than `from` or in the future.
 [[nodiscard]] Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> text,
                                                                    const PullSource& source,
                                                                    UtcTime from, UtcTime now);

@@ -43,8 +43,8 @@ struct HttpClient::Handle {
     }
     [[nodiscard]] bool is_stopped() const { return options->stop != nullptr && *options->stop; }
 
-    // Passes a piece to `take`. An exception must not pass through libcurl, whose handle would be
-    // useless afterward.
+    // Passes a piece of the body to `take`. Catches exceptions, because one that passed through
+    // libcurl would make its handle useless.
     [[nodiscard]] Status given(std::span<const std::byte> piece) const {
         try {
             return request->take(piece);
@@ -52,7 +52,7 @@ struct HttpClient::Handle {
             return fail(ErrorCode::exhausted, "cannot receive the answer: {}", thrown.what());
         }
     }
-    // Takes a piece of the body. Returns its length; any other number ends the transfer.
+    // Takes a piece of the body and returns its length. Any other number would end the transfer.
     static std::size_t take_body(char* bytes, std::size_t size, std::size_t count, void* self) {
         auto& handle = *static_cast<Handle*>(self);
         const std::size_t length = size * count;

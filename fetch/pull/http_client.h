@@ -1,7 +1,7 @@
 // fetch/pull/http_client.h -- makes one GET at a time, over a connection that stays open.
 //
-// The client follows no redirects and speaks only http and https. Answers are limited in bytes and
-// in time. `stop` ends a transfer within a second or so.
+// The client follows no redirects and speaks only http and https. It limits the bytes and the time
+// of each answer. If `stop` is set, a transfer ends within a second or so.
 //
 // Threads   One thread at a time. Any thread may set `stop`.
 // Errors    busy         may pass: no connection, a timeout, 429, 500 and above, or `stop`
@@ -28,9 +28,10 @@ namespace stormcellar::pull {
 
 struct HttpRequest {
     std::string url;
-    std::string known_tag;         // with its quotes; content with this tag is not sent again
+    // With its quotes; the server need not send content with this tag.
+    std::string known_tag;
     std::uint64_t most_bytes = 0;  // of the body
-    // Takes the body of a 200 answer, piece by piece. An error ends the transfer.
+    // Takes the body of an answer 200, piece by piece. If it returns an error, the transfer ends.
     std::function<Status(std::span<const std::byte>)> take;
 };
 
@@ -42,7 +43,7 @@ struct HttpAnswer {
 
 struct HttpOptions {
     std::chrono::seconds connect{10};
-    std::chrono::seconds stall{20};     // a transfer without a byte for this long fails
+    std::chrono::seconds stall{20};     // a transfer fails if no byte comes for this long
     std::chrono::seconds longest{300};  // limit of a whole transfer
     const std::atomic<bool>* stop = nullptr;
     std::function<void()> beat;  // called at least once a second during a transfer
@@ -56,7 +57,7 @@ class HttpClient {
     ~HttpClient();
 
     [[nodiscard]] Result<HttpAnswer> get(const HttpRequest& request);
-    // Returns the wait that the last answer requested (Retry-After); none if it requested none.
+    // Returns the wait that the last answer requested (Retry-After), or none.
     [[nodiscard]] std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
 
   private:

@@ -1,5 +1,5 @@
 // stormcellar-pull: fetches grids from the data servers of other machines. The text below describes
-// its usage.
+// its command line.
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -15,8 +15,8 @@ namespace stormcellar::pull {
 namespace {
 
 constexpr std::string_view program = "stormcellar-pull";
-// A thread without a beat for this long hangs; during a transfer each thread beats at least once a
-// second.
+// A thread that gives no sign for this long hangs. During a transfer, each thread gives a sign at
+// least once a second.
 constexpr std::chrono::minutes longest_silence{5};
 
 constexpr std::string_view usage =

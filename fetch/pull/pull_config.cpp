@@ -11,12 +11,12 @@
 namespace stormcellar::pull {
 namespace {
 
-constexpr std::size_t most_sources = 32;  // each has a thread
+constexpr std::size_t most_sources = 32;  // each source has a thread
 constexpr std::size_t most_domains = 64;
 constexpr std::size_t most_stations = 1024;
 
-// The shipped file has all of these tables, so tests/fetch/pull/pull_config_test.cpp, which loads
-// it, fails if a name is missing here.
+// Tables of other programs. The shipped file has all of them, and
+// tests/fetch/pull/pull_config_test.cpp loads it, so the test fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
                                                  "loop",   "catalog", "watch", "partials",
                                                  "status", "station", "web",   "feed"};

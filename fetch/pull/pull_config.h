@@ -13,12 +13,12 @@
 
 namespace stormcellar::pull {
 
-// A machine whose stormcellar-web offers grids.
+// A machine whose stormcellar-web offers grids to pull.
 struct PullSource {
     std::string name;  // also the name of its directory
     std::string url;   // "http://HOST:PORT", perhaps with a path, without a '/' at the end
-    std::vector<std::string> domains = {};   // pull partials of these; empty: of all domains
-    std::vector<std::string> stations = {};  // pull partials of these; empty: of all stations
+    std::vector<std::string> domains = {};   // pull partials only of these; empty: of all domains
+    std::vector<std::string> stations = {};  // pull partials only of these; empty: of all stations
     bool operator==(const PullSource&) const = default;
 };
 
@@ -36,9 +36,8 @@ struct PullConfig {
     bool operator==(const PullConfig&) const = default;
 };
 
-// Loads the configuration. Relative paths start at the directory of the file. Ignores tables of
-// other programs. Errors: errors of reading the file; bad_argument, "FILE:LINE: [section] key:
-// why".
+// Loads the configuration. Relative paths start at the directory of the file. Ignores the tables of
+// other programs. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key: why".
 [[nodiscard]] Result<PullConfig> load_pull_config(const std::filesystem::path& file);
 
 }  // namespace stormcellar::pull

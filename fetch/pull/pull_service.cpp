@@ -46,7 +46,7 @@ PullService::~PullService() {
         thread.join();
 }
 
-// Runs the turns of a machine. Logs when the machine begins to fail and when it recovers.
+// Runs the turns of a machine. Logs when they begin to fail, and when they succeed again.
 void PullService::run(SourcePuller& puller) {
     bool was_failing = false;
     while (!stop_) {

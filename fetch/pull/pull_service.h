@@ -1,12 +1,11 @@
 // fetch/pull/pull_service.h -- runs a thread for each source machine, and writes the status file.
 //
-// Each machine has its own thread and its own directory below [pull] directory, so that a machine
-// that hangs or sends wrong data does not affect the others. status.json is in [pull] directory and
-// is written when something has changed.
+// Each machine has a thread and a directory of its own (below [pull] directory), so that a machine
+// that hangs or sends wrong data does not affect the others. status.json is also in [pull]
+// directory; it is written when something has changed.
 //
-// Threads   One thread at a time. The destructor ends the object's own threads within a second or
-//           so.
-// Errors    open(): the directories cannot be made or read.
+// Threads   One thread at a time. The destructor ends the object's own threads, within a second or
+// so. Errors    open(): the directories cannot be made or read.
 #pragma once
 
 #include <atomic>
@@ -31,10 +30,10 @@ class PullService {
     PullService& operator=(const PullService&) = delete;
     ~PullService();
 
-    // Writes status.json if its contents have changed. Errors: errors of writing.
+    // Writes status.json if its contents have changed. Errors: those of writing.
     Status publish();
     [[nodiscard]] std::vector<SourceStatus> status() const;
-    // Returns how long the thread that has been inactive longest has made no progress.
+    // Returns the time since the last sign of progress of the thread that has been silent longest.
     [[nodiscard]] std::chrono::milliseconds longest_silence() const;
 
   private:
@@ -45,9 +44,9 @@ class PullService {
     FileSystem& file_system_;
     const PullConfig config_;
     std::atomic<bool> stop_{false};
-    Mutex mutex_;  // held to set stop_, so that no thread that is about to wait misses the change
+    Mutex mutex_;  // lock it to set stop_; else a thread about to wait would miss that
     ConditionVariable stopped_;
-    std::string published_;  // last status, without its time
+    std::string published_;  // the last status, without the time at which it was written
     std::vector<std::unique_ptr<SourcePuller>> pullers_;
     std::vector<std::thread> threads_;  // declared last, because they use the members above
 };

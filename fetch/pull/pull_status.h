@@ -1,5 +1,5 @@
-// fetch/pull/pull_status.h -- the contents of status.json: the state of each machine, for people
-// and monitoring.
+// fetch/pull/pull_status.h -- the contents of status.json: the state of each source machine, for
+// people and for monitoring.
 //
 // Threads   Plain data and a pure function.
 #pragma once
@@ -22,7 +22,7 @@ struct SourceStatus {
     std::size_t grids = 0;
     std::uint64_t bytes = 0;     // on disk
     std::uint64_t pulled = 0;    // counts since the start: grids kept,
-    std::uint64_t refused = 0;   // grids that failed a check or were cut off,
+    std::uint64_t refused = 0;   // grids that failed a check or were cut in transfer,
     std::uint64_t removed = 0;   // grids that the limits removed,
     std::uint64_t failures = 0;  // and turns that failed
 };

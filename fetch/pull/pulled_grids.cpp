@@ -26,10 +26,11 @@ std::uint64_t bytes_on_disk(const fs::path& path) {
                                              : 0;
 }
 
-constexpr std::size_t most_told_of_tag = 40;  // a server may send a tag of 100 kB
+// The log shows only this much of a tag; a server may send 100 kB.
+constexpr std::size_t most_told_of_tag = 40;
 
-// Checks the whole file. Only one thread checks at a time, because a check may take half a
-// gigabyte.
+// Checks the whole file. Only one thread may check at a time, because a check may take half a
+// gigabyte of memory.
 Status check(const fs::path& path, const cache::GridName& name, const std::string& tag) {
     static Mutex one_at_a_time;
     const MutexLock lock(one_at_a_time);
@@ -53,7 +54,7 @@ Status check(const fs::path& path, const cache::GridName& name, const std::strin
 
 Result<PulledGrids> PulledGrids::open(FileSystem& file_system, fs::path directory,
                                       PulledLimits limits) {
-    // Opening the store as its only writer removes the leftovers of a killed writer.
+    // The store removes the leftovers of a killed writer when it is opened as the only writer.
     const auto store = cache::StoreWriter::open(file_system, directory, true);
     if (!store) return pass_on(store);
     PulledGrids grids(file_system, std::move(directory), limits);
@@ -109,7 +110,7 @@ Status PulledGrids::give_name(Incoming& incoming_file) {
 Status PulledGrids::keep(Incoming incoming, const std::string& tag) {
     const Status good = check(incoming.file_.temporary_path(), incoming.name_, tag);
     if (!good) {
-        // Name the final path of the grid, not the temporary path.
+        // Let the message name the final path of the grid instead of the temporary path.
         std::string why = good.error().message;
         const std::string temporary = incoming.file_.temporary_path().native() + ": ";
         if (why.starts_with(temporary)) why.erase(0, temporary.size());
@@ -131,7 +132,7 @@ void PulledGrids::remove_empty_above(const fs::path& path) const {
         if (!fs::remove(above, ignored)) break;
 }
 
-// Removes a grid, and the directories above it that are then empty.
+// Removes a grid, and the directories above it that become empty.
 void PulledGrids::remove(const cache::GridName& name) {
     const fs::path path = path_of(name);
     (void)file_system_->remove(path);

@@ -1,14 +1,15 @@
 // fetch/pull/pulled_grids.h -- the directory of grids that were pulled from one machine.
 //
 // The directory has the layout of a cache (stormcellar/cache/grid_name.h). A grid gets its name
-// only after a check of all of its bytes: it must be a grid file of the requested station, moment
-// and time, with the right checksum of every brick and the tag that the server named. Until then it
-// has a temporary name beside the domains. Directories are made only for grids that are kept.
-// open() removes the leftovers of a killed program. Only one process may write to a directory.
+// only after all of its bytes were checked: it must be a grid file of the requested station, moment
+// and time, each brick must have the right checksum, and the tag must be the one that the server
+// named. Until then the grid has a temporary name beside the domains. Directories are made only for
+// grids that are kept. open() removes the leftovers of a killed program. Only one process may write
+// to a directory.
 //
 // Units     Sizes are in bytes on disk.
 // Threads   One thread at a time.
-// Errors    Errors of file operations. Errors of the check are corrupt, truncated and unsupported.
+// Errors    Those of file operations; corrupt, truncated and unsupported if a grid fails the check.
 #pragma once
 
 #include <chrono>
@@ -28,8 +29,8 @@ namespace stormcellar::pull {
 struct PulledLimits {
     std::uint64_t bytes = 0;
     std::chrono::seconds age{0};
-    // Limit of the number of grids, because each takes a file and some memory, however small it is.
-    // For a mosaic, the radars of a nation make some 60,000 grids of one moment in a day.
+    // Limit of the number of grids. Each takes a file and some memory, however small it is. For a
+    // mosaic, all radars of a nation make some 60,000 grids of one moment in a day.
     std::size_t grids = 100'000;
 };
 
@@ -40,8 +41,8 @@ class PulledGrids {
                                     PulledLimits limits);
 
     [[nodiscard]] bool has(const cache::GridName& name) const { return grids_.contains(name); }
-    // Returns the entity tag of the grid in the directory; empty if the directory has no such grid
-    // or the tag cannot be read.
+    // Returns the entity tag of the grid in the directory. Returns an empty text if there is no
+    // such grid or its tag cannot be read.
     [[nodiscard]] std::string tag_of(const cache::GridName& name);
     // A grid that is being received.
     class Incoming {
@@ -56,11 +57,11 @@ class PulledGrids {
         AtomicFile file_;
     };
     [[nodiscard]] Result<Incoming> begin(const cache::GridName& name);
-    // Checks the grid and gives it its name. `tag` is the tag that the server named.
+    // Checks the grid and gives it its final name. `tag` is the tag that the server named.
     Status keep(Incoming incoming, const std::string& tag);
 
     // Removes grids that are too old, and then the oldest grids until the limits of bytes and of
-    // grids are met. Returns the number of removed grids.
+    // grids are met. Returns how many it removed.
     std::size_t prune(UtcTime now);
 
     [[nodiscard]] std::size_t count() const { return grids_.size(); }

@@ -15,22 +15,22 @@ namespace {
 
 constexpr std::chrono::milliseconds first_pause{1000}, longest_pause{60'000};
 constexpr std::uint64_t most_file_bytes = std::uint64_t{1} << 30;
-// The list begins at a multiple of this time, so that its URL and its tag stay the same for a
-// while.
+// The list of grids is requested from a multiple of this time on, so that its URL and its tag stay
+// the same for a while.
 constexpr std::chrono::minutes list_step{10};
-// Most turns ask for a list of the last half hour. Every 12th turn or so asks for the whole list,
-// to find late grids.
+// Most turns request only the grids of the last half hour. About every 12th turn requests the whole
+// list, to find late grids.
 constexpr std::chrono::minutes short_list{30};
 constexpr int short_lists = 12;
-// Grids younger than this are asked for again, because a machine makes a partial again within
-// minutes when the rest of the volume comes.
+// Grids younger than this are requested again. A machine makes a partial again within minutes, when
+// the rest of its volume comes.
 constexpr std::chrono::minutes young{20};
 constexpr std::chrono::seconds between_asking{60};
-// Limits of one turn. Fetching many missing grids takes several turns; a machine that sends junk is
-// paused.
+// Limits of one turn. So fetching many missing grids takes several turns, and a machine that sends
+// junk is paused.
 constexpr int most_of_a_turn = 1000, most_refused_in_a_row = 16;
 
-// Returns true for errors of one grid, while the machine works.
+// Returns true if the error concerns only one grid, so that the machine itself works.
 bool is_of_the_grid(ErrorCode code) {
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
            code == ErrorCode::unsupported || code == ErrorCode::over_budget ||
@@ -75,7 +75,7 @@ Status SourcePuller::turn() {
     return done;
 }
 
-// Runs a turn. An exception ends only this turn, not the service.
+// Runs a turn. An exception ends only this turn and not the service.
 Status SourcePuller::try_to_pull() {
     try {
         return pull();
@@ -95,7 +95,7 @@ SourceStatus SourcePuller::status() const {
     return status_;
 }
 
-// Notes in the status how a turn ended. Also called at the start, before the first request.
+// Notes in the status how a turn ended. Also called at the start, before the first turn.
 void SourcePuller::note_outcome(const Status& done) {
     const MutexLock lock(mutex_);
     status_.grids = grids_.count();
@@ -145,8 +145,8 @@ Result<bool> SourcePuller::list(UtcTime from, UtcTime now) {
     return !answer->is_unchanged;
 }
 
-// Forgets requests and refusals of grids that are too old, or that the list, which begins at
-// `from`, lacks.
+// Forgets requests and refusals of grids that are too old, and of grids that the list lacks. The
+// list begins at `from`.
 void SourcePuller::forget_unlisted(UtcTime from, UtcTime now) {
     const std::set<cache::GridName> listed(listed_.begin(), listed_.end());
     const auto is_gone = [&](const auto& one) {
@@ -161,7 +161,7 @@ bool SourcePuller::may_fetch() const {
     return !stop_ && fetched_ < most_of_a_turn;
 }
 
-// Removes the oldest grids to make room. Returns false if the new grid `name` was among them.
+// Removes the oldest grids to make room. Returns false if that removed the new grid `name`.
 bool SourcePuller::make_room_for(const cache::GridName& name) {
     if (grids_.bytes() <= config_.bytes_a_source) return true;
     const std::uint64_t bytes = grids_.bytes();
@@ -187,7 +187,7 @@ Status SourcePuller::fetch_missing() {
         if (grids_.has(name)) continue;
         if (!has_room_for(name)) return {};
         if (Status fetched = fetch(name); !fetched) return fetched;
-        // Grids come newest first: if there is no room for this grid, there is no room for older
+        // Grids come newest first. If there is no room for this grid, there is none for older
         // grids.
         if (!make_room_for(name)) return {};
     }
@@ -206,7 +206,7 @@ Status SourcePuller::ask_again(UtcTime now) {
     return {};
 }
 
-// Fetches a grid, unless requests for this grid are paused. Fails only if the machine must be
+// Fetches a grid, unless requests for it are paused. Fails only if the machine itself must be
 // paused.
 Status SourcePuller::fetch(const cache::GridName& name) {
     const auto known = bad_.find(name);

@@ -1,17 +1,17 @@
-// fetch/pull/source_puller.h -- pulls the partials of one machine, turn by turn. A partial is the
+// fetch/pull/source_puller.h -- pulls partials from one machine, turn by turn. A partial is the
 // grid of one site on the cells of a mosaic.
 //
-// A turn asks for the list of grids, fetches missing grids, newest first, and asks again for the
-// newest grids, in case they were made again. The turn fails if the machine does not answer. After
-// a failed turn, the pause is one second, and doubles with each further failure up to a minute; if
-// the machine requests a longer pause, that pause applies, up to a minute. A grid that is cut off
-// or fails a check is refused, and asked for again after a pause of its own, so that it does not
-// delay other grids. A turn makes at most 1,000 requests for grids and fails after 16 refusals in a
-// row, so that a machine that sends only junk is paused like a machine that is down. When the
-// machine no longer lists a grid, the puller forgets the refusals of that grid.
+// A turn requests the list of grids, and fetches missing grids, newest first. It also requests the
+// newest grids again, in case they were made again. The turn fails if the machine does not answer.
+// After a failed turn, the pause is one second; it doubles with each further failure, up to a
+// minute. If the machine requests a longer pause, that pause applies, up to a minute. A grid that
+// is cut off or fails a check is refused. It is requested again after a pause of its own, so that
+// it does not delay other grids. A turn makes at most 1,000 requests for grids. It fails after 16
+// refusals in a row, so that a machine that sends only junk is paused like a machine that is down.
+// When the machine no longer lists a grid, the puller forgets the refusals of that grid.
 //
-// Threads   turn() by one thread; status() by any.
-// Errors    turn() says why it ended early; the next turn may succeed.
+// Threads   One thread calls turn(); any thread may call status().
+// Errors    turn() returns the reason why it ended early. The next turn may succeed.
 #pragma once
 
 #include <algorithm>
@@ -31,8 +31,8 @@
 
 namespace stormcellar::pull {
 
-// Returns the pause after this many failures in a row: 1 s after the first, doubled after each
-// further failure, at most a minute.
+// Returns the pause after this many failures in a row: 1 s after the first, twice as long after
+// each further failure, but at most a minute.
 [[nodiscard]] std::chrono::milliseconds pause_after(int failures);
 
 class SourcePuller {
@@ -46,7 +46,7 @@ class SourcePuller {
     [[nodiscard]] std::chrono::milliseconds pause() const;
     [[nodiscard]] SourceStatus status() const;
     [[nodiscard]] const PullSource& source() const { return source_; }
-    // Returns the size of asked_ or bad_, whichever is larger; for tests.
+    // Returns the larger of the sizes of asked_ and bad_; for tests.
     [[nodiscard]] std::size_t remembered() const { return std::max(asked_.size(), bad_.size()); }
     // Returns when a turn, or a transfer in it, last made progress.
     [[nodiscard]] SteadyTime last_beat() const { return beat_.load(); }
@@ -70,7 +70,7 @@ class SourcePuller {
         int tries = 0;
         SteadyTime next{};
     };
-    // The last grid that was removed as soon as it was fetched, because all other grids are newer.
+    // The grid that was last removed as soon as it was fetched, because all other grids are newer.
     struct NoRoom {
         UtcTime time;
         std::uint64_t bytes = 0;
@@ -89,7 +89,7 @@ class SourcePuller {
     std::map<cache::GridName, Bad> bad_;
     std::optional<NoRoom> no_room_;
     int failures_ = 0;          // failed turns in a row
-    int fetched_ = 0;           // requests in this turn
+    int fetched_ = 0;           // number of requests in this turn
     int refused_in_a_row_ = 0;  // in this turn
     RateLimit lines_{20, std::chrono::seconds{60}};
 
