@@ -15,19 +15,20 @@
 namespace stormcellar {
 
 struct ServiceArguments {
-    std::optional<std::filesystem::path> config;  // set unless help or version was requested
+    std::optional<std::filesystem::path> config;  // set unless --help or --version was given
     bool check = false;
     bool help = false;
     bool version = false;
     std::string_view flag;  // the flag of `own_flags` that was given; empty: none
 };
-// Parses the arguments. `own_flags` are further flags of this service, such as "--no-loops"; at
+// Parses the arguments. `own_flags` are the further flags of this service, such as "--no-loops"; at
 // most one of them may be given.
 [[nodiscard]] Result<ServiceArguments> parse_service_arguments(
     int argc, char** argv, const std::vector<std::string_view>& own_flags = {});
 
-// Returns "checked as the user NAME", for --check-config. For root, the text also says how to check
-// as the user of the service, because root may read files that the service may not read.
+// Returns the text "checked as the user NAME" for --check-config. If the user is root, the text
+// also says how to check as the user of the service, because root may read files that the service
+// may not.
 [[nodiscard]] std::string checked_as(std::string_view program, std::string_view service_user);
 
 }  // namespace stormcellar

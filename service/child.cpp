@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int lower_priority = 10;
 constexpr int first_to_go = 500;
 
-// A pipe. Programs inherit neither end, unless spawn() passes that end on.
+// A pipe. A started program inherits neither end, unless spawn() passes that end on.
 struct Pipe {
     Pipe() {
         std::array<int, 2> ends{-1, -1};
@@ -81,11 +81,11 @@ Result<Child> Child::start(const fs::path& program, const std::vector<std::strin
         spawn(program, arguments, {.out = out.writer.number(), .err = err.writer.number()});
     if (!started) return pass_on(started);
     const pid_t id = *started;
-    // These calls may fail for lack of permission; the program then runs without them.
+    // If permission for these calls is missing, the program runs without their effect.
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), lower_priority);
     std::ofstream(fmt::format("/proc/{}/oom_score_adj", id)) << first_to_go;
-    // Call pidfd_open directly, because its declaration in glibc 2.36 lacks extern "C". Programs do
-    // not inherit the descriptor.
+    // Call pidfd_open through syscall(), because its declaration in glibc 2.36 lacks extern "C".
+    // Started programs do not inherit the descriptor.
     Child child(id, Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, id, 0))));
     if (!child.descriptor_.is_open()) return system_failure(program.native(), errno);
     child.out = lines_of(out);

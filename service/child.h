@@ -2,11 +2,11 @@
 //
 // The program has no input, default signals, a process group of its own (so that Ctrl-C in a
 // terminal reaches only the service) and a lower priority. If memory runs out, the system kills the
-// program before the service. The program inherits no open files of the service. Its output is read
-// line by line.
+// program before it kills the service. The program inherits no open files of the service. Its
+// output is read line by line.
 //
-// Threads   One thread. The thread must live as long as the child if the child uses
-//           PR_SET_PDEATHSIG, because that signal comes when the thread ends.
+// Threads   One thread. If the child uses PR_SET_PDEATHSIG, that thread must live as long as the
+//           child, because the signal comes when the thread ends.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@
 
 namespace stormcellar {
 
-// Reads lines from the reading end of a pipe. Never blocks.
+// Reads lines from a pipe. Never blocks.
 class LineReader {
   public:
     static constexpr std::size_t longest_line = 4096;  // the rest of a longer line is dropped
@@ -32,8 +32,8 @@ class LineReader {
 
     // Returns the pipe, for poll(), or -1 once read() has reached the end of the output.
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
-    // Returns the lines that have arrived. At the end of the output, also returns a last line
-    // without a line end. Reads at most 64 KiB a call.
+    // Returns the lines that have arrived. At the end of the output, also returns a last line that
+    // has no line end. Reads at most 64 KiB in a call.
     std::vector<std::string> read();
 
   private:
@@ -58,7 +58,7 @@ class Child {
     // Returns a descriptor that is readable once the program has ended.
     [[nodiscard]] int descriptor() const { return descriptor_.number(); }
     void signal(int number) const;
-    // Returns how the program ended: "status 1" or "signal 9"; empty while it runs.
+    // Returns how the program ended, as "status 1" or "signal 9"; empty while the program runs.
     [[nodiscard]] std::string ended();
 
     LineReader out, err;
@@ -67,7 +67,7 @@ class Child {
     Child(pid_t id, Descriptor descriptor) : id_(id), descriptor_(std::move(descriptor)) {}
     void kill();
 
-    pid_t id_ = 0;  // 0: there is no process, or it has ended and was waited for
+    pid_t id_ = 0;  // 0: there is no process, or wait() was called after its end
     Descriptor descriptor_;
     std::string ended_;
 };

@@ -27,8 +27,8 @@ Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options) 
     Descriptor own{::fcntl(listening, F_DUPFD_CLOEXEC, 3)};
     if (!own.is_open()) return system_failure("libmicrohttpd cannot start", errno);
     options.others.push_back({MHD_OPTION_END, 0, nullptr});
-    // Block SIGPIPE for threads that libmicrohttpd starts: otherwise sendfile(2) to a client that
-    // is gone would end the program.
+    // Block SIGPIPE for the threads that libmicrohttpd starts. Otherwise, when sendfile(2) sends to
+    // a client that is gone, the signal would end the program.
     const BlockedSignals blocked({SIGPIPE});
     MHD_Daemon* daemon = MHD_start_daemon(
         options.flags, 0, options.accepts, options.self, options.answer, options.self,
@@ -37,8 +37,8 @@ Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options) 
         MHD_OPTION_NOTIFY_CONNECTION, options.connection, options.self,
         MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_ARRAY, options.others.data(),
         MHD_OPTION_END);
-    // Do not close the copy: either the daemon owns it now, or libmicrohttpd closed it after a
-    // failure.
+    // Do not close the copy here. Either the daemon owns it now, or libmicrohttpd has closed it
+    // after a failure.
     if (daemon != nullptr || !is_same_file(own.number(), listening)) (void)own.release();
     if (daemon == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot start");
     return daemon;

@@ -1,8 +1,8 @@
 // service/http_daemon.h -- starts libmicrohttpd on a listening socket, for the status of the daemon
 // and for the data server.
 //
-// This file is a library of its own (stormcellar::http_daemon), because the other services do not
-// link libmicrohttpd.
+// This file is a library of its own (stormcellar::http_daemon), so that services without HTTP need
+// not link libmicrohttpd.
 //
 // Threads   Any thread.
 #pragma once
@@ -23,7 +23,7 @@ struct HttpResponseDeleter {
 using HttpResponse = std::unique_ptr<MHD_Response, HttpResponseDeleter>;
 
 struct HttpDaemonOptions {
-    unsigned flags = 0;  // MHD_FLAG
+    unsigned flags = 0;  // flags of libmicrohttpd (MHD_FLAG)
     unsigned most_connections = 0;
     std::size_t header_bytes = 0;                // limit of a request line with all headers
     void* self = nullptr;                        // passed to the callbacks
@@ -33,9 +33,9 @@ struct HttpDaemonOptions {
     std::vector<MHD_OptionItem> others = {};
 };
 
-// Starts a daemon that serves a copy of the socket `listening`, which stays open. If libmicrohttpd
-// starts threads, they block SIGPIPE. The caller ends the daemon with MHD_stop_daemon(). Errors:
-// io.
+// Starts a daemon of libmicrohttpd that serves a copy of the socket `listening`. That socket stays
+// open. If libmicrohttpd starts threads, they block SIGPIPE. The caller ends the daemon with
+// MHD_stop_daemon(). Errors: io.
 [[nodiscard]] Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options);
 
 }  // namespace stormcellar

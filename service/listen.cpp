@@ -35,8 +35,8 @@ Result<Descriptor> listen_at(const std::string& address, int port) {
     ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     // Accepted connections inherit this option.
     if (is_v6) ::setsockopt(socket.number(), IPPROTO_IPV6, IPV6_V6ONLY, &on, sizeof on);
-    // Allow a long queue: waiting clients take no descriptor, but a client that finds the queue
-    // full tries again only after 1 s, then 3 s.
+    // Allow a long queue. A client that waits in it takes no descriptor; a client that finds it
+    // full tries again only after 1 s, and then after 3 s.
     if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&storage), size) != 0 ||
         ::listen(socket.number(), SOMAXCONN) != 0) {
         return failure();

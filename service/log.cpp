@@ -31,7 +31,8 @@ const LevelFacts& facts_of(LogLevel level) {
     return facts_of_levels[static_cast<std::size_t>(level)];
 }
 
-// Writes a line for the journal or for people, depending on where stderr goes at that moment.
+// Formats a line for the journal or for people, depending on where stderr goes when the line is
+// written.
 class LineFormatter final : public spdlog::formatter {
   public:
     void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
@@ -50,7 +51,8 @@ class LineFormatter final : public spdlog::formatter {
     }
 };
 
-// The sink writes each line with one call, so that lines of several threads do not mix.
+// Returns the logger. It writes each line with one call, so that lines of several threads do not
+// mix.
 spdlog::logger& logger() {
     static spdlog::logger the_logger = [] {
         spdlog::logger made("stormcellar", std::make_shared<spdlog::sinks::stderr_sink_mt>());

@@ -21,11 +21,11 @@ enum class LogLevel { debug, info, warning, error };
 // Sets the lowest level that is written: `name` is debug, info, warning or error.
 void set_log_level(std::string_view name);
 [[nodiscard]] bool is_logged(LogLevel level);
-// Returns the priority of syslog(3), a digit.
+// Returns the priority that syslog(3) gives to the level, as a digit.
 [[nodiscard]] char priority_of(LogLevel level);
 // Returns true if $JOURNAL_STREAM names stderr as the stream of the journal (DEVICE:INODE).
 [[nodiscard]] bool stderr_is_journal();
-// Writes a line, whatever its level.
+// Writes a line whatever its level is.
 void write_log(LogLevel level, std::string_view text);
 
 template <class... Arguments>
@@ -33,7 +33,7 @@ void say(LogLevel level, fmt::format_string<Arguments...> text, Arguments&&... v
     if (is_logged(level)) write_log(level, fmt::format(text, std::forward<Arguments>(values)...));
 }
 
-// Logs a failure, unless the status before it was also a failure.
+// Logs a failure, unless the previous status was a failure, too.
 class FirstFailure {
   public:
     void note(const Status& status) {

@@ -10,11 +10,11 @@
 namespace stormcellar {
 namespace {
 
-// in the order of MetricsWriter::Type
+// The words, in the order of MetricsWriter::Type.
 constexpr std::array<std::string_view, 4> words = {"counter", "gauge", "summary", "histogram"};
 
-// Escapes a label value. printable() leaves neither line ends nor invalid UTF-8. Backslashes that
-// printable() wrote are escaped, too.
+// Escapes a label value. printable() has replaced line ends and invalid UTF-8. Its backslashes are
+// escaped like others.
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char letter : printable(text)) {

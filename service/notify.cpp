@@ -9,7 +9,7 @@
 
 namespace stormcellar {
 
-// Ignores failures, because the service manager has timeouts for a silent service.
+// Ignores failures: if nothing arrives, timeouts of the service manager apply.
 void SystemdNotifier::send(const std::string& state) {
     (void)sd_notify(0, state.c_str());
 }

@@ -1,5 +1,5 @@
-// service/notify.h -- reports the service's state to its service manager (sd_notify(3)), and feeds
-// the watchdog. Without a service manager, it does nothing.
+// service/notify.h -- reports the state of a service to its service manager (sd_notify(3)), and
+// feeds the watchdog. Does nothing if there is no service manager.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -16,21 +16,21 @@ namespace stormcellar {
 
 class Notifier : public Interface {
   public:
-    // `state` has lines of VARIABLE=value.
+    // Reports a state, which has lines of the form VARIABLE=value.
     virtual void send(const std::string& state) = 0;
-    // Returns how long the manager waits for WATCHDOG=1 before it restarts the service; none: the
-    // manager does not watch the service.
+    // Returns how long the manager waits for WATCHDOG=1 before it restarts the service. Returns
+    // none if the manager does not watch the service.
     [[nodiscard]] virtual std::optional<std::chrono::microseconds> watchdog() const = 0;
 };
 
-// Sends to the socket that $NOTIFY_SOCKET names; does nothing if the variable is not set.
+// Sends to the socket that $NOTIFY_SOCKET names. Does nothing if the variable is not set.
 class SystemdNotifier final : public Notifier {
   public:
     void send(const std::string& state) override;
     [[nodiscard]] std::optional<std::chrono::microseconds> watchdog() const override;
 };
 
-// Reports that the service reloads. The destructor reports READY=1 again.
+// Reports that the service reloads its configuration. The destructor reports READY=1 again.
 class Reloading {
   public:
     explicit Reloading(Notifier& notifier);
@@ -42,12 +42,12 @@ class Reloading {
     Notifier& notifier_;
 };
 
-// Returns "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
+// Returns the text "RELOADING=1" with the monotonic time that systemd requires (sd_notify(3)).
 [[nodiscard]] std::string reloading_state();
 
-// Decides when to feed the watchdog: four times in each of the watchdog's periods, and only while
-// no thread has been at one step (pulse.h) for longer than a whole period. So a hanging thread is
-// noticed even if the main loop still runs. Each step that hangs is reported once; without a
+// Decides when to feed the watchdog: four times in each period of the watchdog, but only while no
+// thread has been at one step (pulse.h) for longer than a whole period. So a hanging thread is
+// noticed even if the main loop still runs. Each step that hangs is reported once. If there is no
 // watchdog, a step hangs after `without_watchdog`.
 class WatchdogFeed {
   public:
@@ -56,7 +56,7 @@ class WatchdogFeed {
     explicit WatchdogFeed(std::optional<std::chrono::microseconds> period) : period_(period) {}
     [[nodiscard]] bool is_due(SteadyTime now, const std::optional<Step>& oldest = std::nullopt);
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
-    // Returns true if the step hangs and no earlier call has returned true for this step.
+    // Returns true if the step hangs and was not reported before.
     [[nodiscard]] bool hangs_now(SteadyTime now, const std::optional<Step>& oldest);
 
   private:

@@ -1,4 +1,4 @@
-// service/program.h -- code that the programs of the services share: it answers --help, --version
+// service/program.h -- code that the programs of all services share. It answers --help, --version
 // and wrong arguments, and writes errors to stderr.
 #pragma once
 
@@ -21,21 +21,21 @@ struct ServiceProgram {
     std::function<int(const ServiceArguments&)> run;
 };
 
-// Runs the whole program and returns its exit status. Wrong arguments give 2, with the usage on
-// stderr; an exception gives 1, with its text.
+// Runs the whole program and returns its exit status. Wrong arguments give the status 2 and write
+// the usage to stderr. An exception gives the status 1 and writes its text.
 [[nodiscard]] int run_service(const ServiceProgram& program, int argc, char** argv);
 
-// Writes "PROGRAM: ERROR" to stderr. Returns 1, the exit status of a failure.
+// Writes "PROGRAM: ERROR" to stderr. Returns 1, the exit status for a failure.
 int complain(std::string_view program, const Error& error);
 
-// Reports that --check-config found no fault in a file, and as which user. Returns 0, the exit
-// status.
+// Reports that --check-config found no fault in a file, and as which user it checked. Returns the
+// exit status 0.
 int say_checked(std::string_view program, std::string_view service_user,
                 const std::filesystem::path& file);
 
 // Raises the soft limit of descriptors to `wanted`, as far as the hard limit allows. The usual
-// limit of 1,024 exists for old programs. Ignores failures: an error appears later if a descriptor
-// is missing.
+// limit of 1,024 exists only for old programs. Ignores failures: if a descriptor is missing later,
+// there is an error then.
 void raise_descriptor_limit(std::uint64_t wanted);
 
 }  // namespace stormcellar

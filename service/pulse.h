@@ -1,7 +1,8 @@
 // service/pulse.h -- shows the watchdog that threads make progress.
 //
-// A working thread reports each step; a thread that waits for work is at rest. The watchdog checks
-// how long the current step of a thread has lasted, so long work must be divided into steps:
+// A thread that works reports each step; a thread that waits for work is at rest. The watchdog
+// checks how long the present step of each thread has lasted, so long work must be divided into
+// steps:
 //   ingest, registration   one file (worker_pool.h)
 //   missing       the search for missing files: the names of one station, or 1,000 files
 //   cache         the rolling of the cache: one directory, or 2,048 files that are removed
@@ -9,9 +10,9 @@
 //   partials      one partial of another machine, with the frames that it changes
 //   status        one turn of the status server: it reads what has arrived and answers requests
 //   loops         one turn of the thread that starts and reads the programs of the loops
-// The thread of the main loop (service.h) has no pulse, because it feeds the watchdog itself.
+// The thread of the main loop (service.h) has no pulse, because this thread feeds the watchdog.
 //
-// Threads   Pulse: any thread. Pulses: one thread at a time.
+// Threads   Any thread may use a Pulse; one thread at a time may use a Pulses.
 #pragma once
 
 #include <atomic>
@@ -28,7 +29,7 @@ class Pulse {
     // Notes that the thread is at work and begins a new step.
     void beat(SteadyTime now = std::chrono::steady_clock::now()) { since_ = now; }
     void rest() { since_ = resting; }
-    // Returns the start of the current step; none while the thread is at rest.
+    // Returns the start of the present step; none while the thread is at rest.
     [[nodiscard]] std::optional<SteadyTime> since() const {
         const SteadyTime since = since_;
         if (since == resting) return std::nullopt;
@@ -52,7 +53,7 @@ class AtWork {
     Pulse& pulse_;
 };
 
-// A thread and the start of its current step.
+// A thread, and the start of its present step.
 struct Step {
     std::string who;
     SteadyTime since;
@@ -60,7 +61,7 @@ struct Step {
 
 class Pulses {
   public:
-    // Adds a pulse, which must outlive all calls of oldest().
+    // Adds a pulse. It must exist as long as oldest() is called.
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
     // Returns the step that has lasted longest; none if all threads are at rest.
     [[nodiscard]] std::optional<Step> oldest() const;

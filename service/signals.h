@@ -1,8 +1,8 @@
 // service/signals.h -- turns signals into events that a thread waits for, or blocks them.
 //
 // Call Signals::open() once, before any thread starts. It blocks SIGTERM, SIGINT and SIGHUP for
-// this thread and the threads that this thread starts, and ignores SIGPIPE. A blocked signal waits
-// until next() returns it.
+// this thread and for the threads that this thread starts, and ignores SIGPIPE. A blocked signal
+// waits until next() returns it.
 //
 // Threads   Signals: one thread at a time.
 #pragma once
@@ -22,7 +22,8 @@ namespace stormcellar {
 
 class Signals {
   public:
-    // Errors: io if no descriptor is left; internal if signals cannot be blocked.
+    // Blocks the signals. Errors: io if no descriptor is left; internal if signals cannot be
+    // blocked.
     static Result<Signals> open();
 
     // Returns a descriptor for poll(), which is readable while a signal waits.
@@ -36,7 +37,7 @@ class Signals {
     Descriptor descriptor_;
 };
 
-// Blocks signals in this thread, and in threads that it starts, while the object exists.
+// Blocks signals while the object exists, in this thread and in threads that this thread starts.
 class BlockedSignals {
   public:
     explicit BlockedSignals(std::span<const int> numbers);
@@ -50,7 +51,7 @@ class BlockedSignals {
     sigset_t before_{};
 };
 
-// Returns "SIGTERM" or "SIGINT", for the log.
+// Returns the name of a signal that ends a service: "SIGTERM" or "SIGINT".
 [[nodiscard]] std::string_view name_of_ending(int signal);
 
 }  // namespace stormcellar

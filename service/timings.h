@@ -1,7 +1,7 @@
 // service/timings.h -- measures durations of repeated work.
 //
-// Count and sum cover all values, as monitoring systems need for counters. Median, 95th percentile
-// and maximum cover the last `window` values, so memory is bounded.
+// Count and sum cover all values, because the counters of monitoring systems need that. Median,
+// 95th percentile and maximum cover only the last `window` values, so memory is bounded.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -17,7 +17,7 @@ struct LatencySummary {
     double median = 0, p95 = 0, max = 0;  // in seconds; meaningless if `count` is 0
 };
 // Returns the summary. Percentiles are by nearest rank: the 95th percentile is the smallest value
-// such that at least 95 % of all values are not greater.
+// that at least 95 % of the values do not exceed.
 [[nodiscard]] LatencySummary summarise(std::vector<double> seconds);
 
 class Timings {
@@ -31,7 +31,7 @@ class Timings {
 
   private:
     std::size_t window_;
-    std::vector<double> last_;  // a ring of the last `window` values
+    std::vector<double> last_;  // ring of the last `window` values
     std::size_t next_ = 0;
     std::uint64_t count_ = 0;
     double sum_s_ = 0;

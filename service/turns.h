@@ -1,5 +1,5 @@
-// service/turns.h -- the main loop of a service whose work other threads do. The loop calls
-// ServiceTurns::turn each second, reloads, feeds the watchdog, and ends.
+// service/turns.h -- the main loop of a service whose work other threads do. Each second, the loop
+// calls ServiceTurns::turn. It also reloads, feeds the watchdog, and ends the service.
 //
 // Threads   One thread, which calls all functions.
 #pragma once
@@ -20,12 +20,12 @@ struct ServiceTurns {
     std::function<bool()> reload;
 };
 
-// Reports READY and calls `turn` each second. Reloads on SIGHUP, and returns false if the service
+// Reports READY and calls `turn` each second. On SIGHUP, reloads, and returns false if the service
 // cannot go on after that. On SIGTERM or SIGINT, logs the signal (service/log.h) and returns true.
 [[nodiscard]] bool take_turns(const ServiceTurns& service, const Signals& signals,
                               Notifier& notifier);
 
-// Logs the signal that ends the service, and reports the end to the manager.
+// Logs the signal that ends the service, and reports the end to the service manager.
 void say_stopping(int signal, Notifier& notifier);
 
 }  // namespace stormcellar

@@ -22,8 +22,8 @@ constexpr std::chrono::milliseconds between_memory_looks{250};
 // Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
-// Returns how many bytes of free memory the process keeps for reuse. It gives more than that back
-// to the system. Decoding volumes one after another leaves less free memory than this.
+// Returns how many bytes of free memory the process keeps for reuse; it gives further free memory
+// back to the system. Decoding volumes one after another leaves less free memory than this.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 16 * static_cast<std::size_t>(workers)) << 20U;
 }
