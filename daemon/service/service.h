@@ -15,7 +15,8 @@
 // another process runs them. A separate thread brings the cache within its budgets every few
 // seconds.
 //
-// Threads   Call run() once. Any thread may call request_stop(), is_idle() and sites_compared().
+// Threads   Call run() once. request_stop(), is_idle() and sites_compared() may be called from any
+//           thread.
 #pragma once
 
 #include <atomic>

@@ -96,8 +96,8 @@ fetch::ListingQuestion StationFollower::question_of(const Followed& volume) cons
 fetch::ListingQuestion StationFollower::question_of_directory(bool is_silent) {
     const int expected = volume_number_after(last_.number);
     const int number = next_directory(is_silent);
-    // In the expected directory, the next volume may have an earlier time, because the clock may
-    // have been set back. In any other directory, only a newer volume can be the next one.
+    // In the expected directory, the next volume may have an earlier time, because the clock of the
+    // radar may have been set back. In any other directory, only a newer volume can be the next.
     const std::string after = number == expected
                                   ? prefix_of(station_, {last_.time - clock_set_back, number})
                                   : prefix_of(station_, {last_.time, number}) + "~";

@@ -5,7 +5,8 @@
 // directory; it is written when something has changed.
 //
 // Threads   One thread at a time. The destructor ends the object's own threads, within a second or
-// so. Errors    open(): the directories cannot be made or read.
+//           so.
+// Errors    open(): the directories cannot be made or read.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,5 @@
-// grid/beam/arc_table.h -- a function of the arc, tabulated every 500 m and linear in between.
+// grid/beam/arc_table.h -- a table of a function of the arc, with a step of 500 m, and linear in
+// between.
 //
 // Threads   Immutable.
 // Accuracy  The error is half the second derivative of the function times 250 m squared
@@ -22,7 +23,7 @@ class ArcTable {
     static constexpr double step_m = 500;
 
     ArcTable() = default;
-    // Calls at(arc) for each arc of the table, in meters, and keeps the values.
+    // Calls at(arc) for each arc of the table, in meters, and stores the values.
     template <class Function>
     ArcTable(std::size_t size, Function at) {
         values_.reserve(size);
@@ -35,7 +36,7 @@ class ArcTable {
     }
     // Returns the value at the arc index * step_m.
     [[nodiscard]] float operator[](std::size_t index) const { return values_[index]; }
-    // Returns the place of an arc, which must be at least 0. at() requires a table with more than
+    // Returns the place of an arc, which must be at least 0. at() needs a table that has more than
     // index + 1 entries.
     [[nodiscard]] static ArcPlace place_of(float arc_m) {
         const float along = arc_m / static_cast<float>(step_m);

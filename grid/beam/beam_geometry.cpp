@@ -12,7 +12,8 @@ constexpr double refraction_factor = 4.0 / 3.0;
 
 }  // namespace
 
-// sqrt(M N) = a sqrt(1 - e^2) / (1 - e^2 sin^2 latitude), with a sqrt(1 - e^2) = a (1 - f).
+// The radius is sqrt(M N) = a sqrt(1 - e^2) / (1 - e^2 sin^2 latitude), where a sqrt(1 - e^2) = a
+// (1 - f).
 double gaussian_radius_m(double latitude_deg) noexcept {
     const double sine = std::sin(latitude_deg * degree);
     const double eccentricity2 = wgs84_flattening * (2 - wgs84_flattening);
@@ -24,8 +25,9 @@ BeamGeometry::BeamGeometry(double site_latitude_deg, double antenna_altitude_m) 
       altitude_m_(antenna_altitude_m),
       antenna_m_(radius_m_ + antenna_altitude_m) {}
 
-// The textbook height sqrt(r^2 + a^2 + 2 r a sin e) - a subtracts two lengths of 8,500 km. With q =
-// r^2 + 2 r a sin e, the height also equals q / (sqrt(a^2 + q) + a), where nothing cancels.
+// The textbook height sqrt(r^2 + a^2 + 2 r a sin e) - a subtracts two lengths of 8,500 km, and so
+// loses digits. With q = r^2 + 2 r a sin e, the height also equals q / (sqrt(a^2 + q) + a), where
+// nothing cancels.
 EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     const double elevation = gate.elevation_deg * degree;
     const double up_m = gate.range_m * std::sin(elevation);
@@ -35,9 +37,9 @@ EarthPoint BeamGeometry::forward(AntennaPoint gate) const noexcept {
     return {radius_m_ * std::atan2(along_m, antenna_m_ + up_m), altitude_m_ + above_antenna_m};
 }
 
-// From the antenna, the point is (a + h) sin t away and (a + h) cos t - a up, where t is the angle
-// at the center of the earth, whose radius is a. The height up also equals h - 2 (a + h) sin^2(t /
-// 2).
+// From the antenna, the point is (a + h) sin t away and (a + h) cos t - a up. Here a is the radius
+// of the earth, and t is the angle at its center. The second length also equals h - 2 (a + h)
+// sin^2(t / 2), where nothing cancels.
 AntennaPoint BeamGeometry::inverse(EarthPoint point) const noexcept {
     const double angle = point.arc_m / radius_m_;
     const double above_antenna_m = point.height_m - altitude_m_;

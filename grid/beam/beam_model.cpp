@@ -30,7 +30,7 @@ EarthPoint BeamPath::at(double range_m) const noexcept {
 }
 
 BeamGeometry::BeamPoint BeamPath::over(double arc_m) const noexcept {
-    // The code that fills an ArcTable calls over() often, so test the usual beam first.
+    // The usual beam comes first, because the code that fills an ArcTable calls over() often.
     if (kind_ == BeamKind::four_thirds) return four_thirds_.over(arc_m, elevation_deg_);
     if (kind_ == BeamKind::traced) return ray_->over(arc_m);
     if (!(cosine_ > 0)) return {nan, nan};
@@ -107,9 +107,9 @@ AntennaPoint BeamModel::inverse(EarthPoint point) const {
     return traced_inverse(point);
 }
 
-// Iterates to the gate whose traced beam meets the point. The next step is computed from the
-// remaining error by the inverse of the 4/3 earth. A step that does not help is shortened, because
-// the two models respond differently near ducts.
+// Iterates to the gate at which the traced beam meets the point. The inverse of the 4/3 earth turns
+// the remaining error into the next step. A step that does not help is shortened, because the two
+// models respond differently near ducts.
 AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
     if (!std::isfinite(point.arc_m) || !std::isfinite(point.height_m)) return {nan, nan};
     const AntennaPoint target = four_thirds_.inverse(point);
@@ -135,7 +135,8 @@ AntennaPoint BeamModel::traced_inverse(EarthPoint point) const {
         } else if (std::isfinite(least_m)) {
             share /= 2;
         } else {
-            best.elevation_deg += raise_deg;  // the traced beam met the ground before the point
+            // The traced beam met the ground before it reached the point.
+            best.elevation_deg += raise_deg;
         }
     }
     if (!(least_m <= close_enough_m)) return {nan, nan};
@@ -146,16 +147,16 @@ namespace {
 
 constexpr double step_m = 500;
 
-// Returns true if the place is within the limits. The order of the tests matters: NaN must be
-// refused before it is compared, because the comparison may trap.
+// Returns true if the place is within the limits. NaN is refused before it is compared, because a
+// comparison with NaN may trap.
 bool within(const BeamLimits& limits, double arc_m, double range_m, double height_m) {
     return !std::isnan(height_m) && arc_m <= limits.arc_m && range_m <= limits.range_m &&
            height_m >= limits.floor_m && height_m <= limits.ceiling_m;
 }
 
-// The difference of two models at one arc or one range.
+// The difference between two models, at one arc or one range.
 struct Sample {
-    bool counts = false;  // true if either place is within the limits
+    bool counts = false;  // true if the place by either model is within the limits
     BeamDifference difference;
 };
 
@@ -169,8 +170,8 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
 }
 
 // Raises `greatest` to the differences at every step up to the limit, and at one step beyond. A
-// sample counts if it or a neighboring sample is within the limits, so that the samples that count
-// enclose the part within the limits.
+// sample counts if it or one of its neighbors is within the limits. So the samples that count
+// enclose everything within the limits.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

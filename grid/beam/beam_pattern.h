@@ -1,14 +1,16 @@
-// grid/beam/beam_pattern.h -- how much a gate counts for a point off the axis of its beam.
+// grid/beam/beam_pattern.h -- computes how much a gate counts for a point off the axis of its beam.
 //
-// The weight is the one-way power pattern of the antenna, a Gaussian of the half-power width, so it
-// is 1/2 at half a width off the axis. The pattern is lowered and scaled, so that the weight is 1
-// on the axis and 0 from `reach` on:
+// The weight follows the one-way power pattern of the antenna, a Gaussian of the half-power width,
+// which is 1/2 at half a width off the axis. The pattern is shifted and scaled, so that the weight
+// is 1 on the axis and 0 from `reach` on:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
 // Here width = reach = the larger of the beam width and the distance between neighboring radials or
-// sweeps. So between two neighboring radials or sweeps both count. On its own axis, a radial or
+// sweeps. So a point between two neighboring radials or sweeps gets weight from both. A point on
+// the axis of one gets weight from this one alone, unless its neighbors are nearer than the beam
+// width.
 // sweep counts alone, unless its neighbors are nearer than the beam width.
 //
-// Source    Probert-Jones (1962), who takes the main lobe as a Gaussian.
+// Source    Probert-Jones (1962), who treats the main lobe as a Gaussian.
 // Accuracy  1e-6 (tests/grid/sweep_mixture_test.cpp).
 // Threads   A pure function.
 #pragma once

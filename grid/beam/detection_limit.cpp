@@ -35,7 +35,7 @@ DetectionLimit detection_limit(const level2::Radial& radial, const level2::Sweep
             limit.at_1km_dbz += static_cast<double>(moment.snr_threshold_db);
         }
     }
-    // The attenuation is sent as a negative number.
+    // The radar sends the attenuation as a negative number.
     const int thousandths = -radial.attenuation_db_per_km_thousandths.value_or(0);
     if (thousandths > 0 && thousandths <= largest_attenuation_thousandths) {
         limit.attenuation_db_per_km = thousandths / 1000.0;

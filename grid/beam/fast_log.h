@@ -1,8 +1,8 @@
 // grid/beam/fast_log.h -- a logarithm and an exponential that compilers can vectorize.
 //
-// Accuracy  Enforced by tests/grid/fast_log_test.cpp. fast_log2: 4e-7 + 1e-7 |log2 x| over all
-//           normal floats; for doubles it calls std::log2. fast_exp2: 3e-7 of its value, from -126
-//           to 127.
+// Accuracy  Enforced by tests/grid/fast_log_test.cpp. fast_log2: 4e-7 + 1e-7 |log2 x| for all
+//           normal floats; for a double, it is std::log2. fast_exp2: 3e-7 of its value, for x from
+//           -126 to 127.
 // Threads   Pure functions, with the same bits on every machine.
 #pragma once
 
@@ -12,8 +12,9 @@
 
 namespace stormcellar::grid {
 
-// Returns log2 x for a positive, normal x. With x = m 2^e and m in [2/3, 4/3), log2 m = 2 atanh(s)
-// / ln 2, where s = (m - 1) / (m + 1) and |s| <= 1/5. The series of atanh ends after s^9.
+// Returns log2 x for a positive, normal x. Writes x as m 2^e with m in [2/3, 4/3). Then log2 m = 2
+// atanh(s) / ln 2, where s = (m - 1) / (m + 1) and |s| <= 1/5. The series of atanh is cut after
+// s^9.
 [[nodiscard]] inline float fast_log2(float x) noexcept {
     constexpr std::uint32_t two_thirds = 0x3F2AAAAB;
     const auto bits = std::bit_cast<std::uint32_t>(x);
@@ -29,8 +30,8 @@ namespace stormcellar::grid {
     return std::log2(x);
 }
 
-// Returns 2^x for x within -126 to 127. With x = n + t and |t| <= 1/2, 2^t is the series of exp(t
-// ln 2).
+// Returns 2^x for x from -126 to 127. Writes x as n + t, where n is whole and |t| <= 1/2. 2^t is
+// the series of exp(t ln 2).
 [[nodiscard]] inline float fast_exp2(float x) noexcept {
     constexpr float no_fraction = 0x1.8p23F;
     const float whole = x + no_fraction - no_fraction;

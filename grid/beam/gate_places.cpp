@@ -10,7 +10,7 @@ bool is_somewhere(const EarthPoint& point) {
     return std::isfinite(point.arc_m) && std::isfinite(point.height_m);
 }
 
-// Returns the mirror image of `other` about `middle`.
+// Returns the point that mirrors `other` about `middle`.
 EarthPoint mirrored(const EarthPoint& other, const EarthPoint& middle) {
     return {2 * middle.arc_m - other.arc_m, 2 * middle.height_m - other.height_m};
 }
@@ -28,7 +28,7 @@ GatePlaces::GatePlaces(const level2::SweepMoment& moment, const BeamModel& beam,
         const double range_m = moment.range_m(gate);
         Place place;
         place.middle = middle.at(range_m);
-        // A traced beam may end at the ground; then the missing point is mirrored.
+        // A traced beam may end at the ground. Then mirror the other edge to get the missing point.
         EarthPoint low = lower.at(range_m);
         EarthPoint high = upper.at(range_m);
         if (!is_somewhere(low)) low = mirrored(high, place.middle);

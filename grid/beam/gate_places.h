@@ -1,10 +1,10 @@
-// grid/beam/gate_places.h -- where the centers of a sweep's gates are.
+// grid/beam/gate_places.h -- computes where the centers of a sweep's gates are.
 //
-// The place of each gate is a parabola in the elevation, through three places: at the sweep's
-// elevation, half a beam below it and half a beam above it.
+// The place of a gate is a function of the elevation: a parabola through three places, which are at
+// the sweep's elevation, half a beam below it, and half a beam above it.
 //
-// Accuracy  0.02 m of the beam model, for radials up to half a beam off, ranges to 470 km,
-//           elevations of -5 to 60 degrees and the 4/3 earth (enforced by
+// Accuracy  0.02 m from the beam model, for radials up to half a beam off the sweep, ranges to
+//           470 km, elevations of -5 to 60 degrees and the 4/3 earth (enforced by
 //           tests/grid/gate_places_test.cpp).
 // Threads   Immutable.
 #pragma once
@@ -24,9 +24,9 @@ class GatePlaces {
     GatePlaces(const level2::SweepMoment& moment, const BeamModel& beam, double elevation_deg,
                double half_beam_deg);
 
-    // Returns the place of a gate, for a radial that is higher than the sweep by `offset_deg`. The
-    // gate must be at least 0 and below the moment's stride. Returns none if the beam does not
-    // reach the gate.
+    // Returns the place of a gate of a radial that is `offset_deg` higher than the sweep. The gate
+    // must be at least 0 and below the moment's stride. Returns none if the beam does not reach the
+    // gate.
     [[nodiscard]] std::optional<EarthPoint> at(std::int32_t gate, double offset_deg) const;
 
   private:

@@ -23,7 +23,7 @@ constexpr double shortest_step_after_many_m = 100;
 
 struct State {
     double height_m = 0;
-    double sine = 0;  // of the elevation
+    double sine = 0;  // sine of the elevation
     double arc_m = 0;
 };
 
@@ -34,7 +34,7 @@ State operator*(double factor, State a) {
     return {factor * a.height_m, factor * a.sine, factor * a.arc_m};
 }
 
-// Traces one ray from the antenna until the farthest range or the floor.
+// Traces one ray from the antenna to the farthest range or to the floor.
 class Tracer {
   public:
     Tracer(const RefractivityProfile& profile, double radius_m, RangeKind kind, double floor_m)
@@ -45,7 +45,7 @@ class Tracer {
     bool run(State start, double farthest_m, std::vector<RayNode>& nodes);
 
   private:
-    // The reason for the end of a step.
+    // The reason why a step ends.
     enum class Event { none, border, floor };
     struct Step {
         State state;
@@ -71,8 +71,8 @@ class Tracer {
     double layer_bottom_m_ = 0;
 };
 
-// Applies Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. The state holds the sine and not the
-// angle, so no sine needs to be computed.
+// Applies Bouguer's law: d(sine) = cos^2 (1 / r + n' / n) ds. The state holds the sine of the
+// elevation instead of the elevation, so that no sine must be computed.
 State Tracer::rate(const State& state) const {
     const auto air = layer_.at(state.height_m);
     const double n = 1 + 1e-6 * air.n_units;
@@ -96,9 +96,9 @@ double Tracer::suitable_length_m(const State& state) const {
     return std::min(longest_step_m, share_of_scale / std::max(rate_per_m, 1e-9));
 }
 
-// Returns the length of a step from `state` that makes value(state, rate) zero. The value must be
-// monotonic and have one zero up to length_m. Newton's method starts from guess_m; a step that
-// leaves the bracket is replaced by halving it.
+// Returns the length of a step from `state` at which value(state, rate) is zero. The value must be
+// monotonic, with one zero up to length_m. Newton's method starts from guess_m. If it leaves the
+// bracket around the zero, the bracket is halved instead.
 template <class Value>
 double Tracer::where_zero(const State& state, double length_m, double guess_m, bool rising,
                           Value value) const {
@@ -111,14 +111,14 @@ double Tracer::where_zero(const State& state, double length_m, double guess_m, b
         if (distance == 0) return length;
         ((distance > 0) == rising ? high : low) = length;
         const double next = slope == 0 ? low : length - distance / slope;
-        // Newton's method squares the error
+        // The error of Newton's method squares with each step, so the next error is negligible.
         if (std::abs(next - length) < 1e-6) return std::clamp(next, 0.0, length_m);
         length = next > low && next < high ? next : (low + high) / 2;
     }
     return length;
 }
 
-// Returns the length after which a ray of constant curvature has first risen by `rise_m`.
+// Returns the length over which a ray of constant curvature rises by `rise_m` for the first time.
 double Tracer::parabola_m(const State& state, double rise_m) const {
     const State rates = rate(state);
     const double root = rates.height_m * rates.height_m + 2 * rates.sine * rise_m;
@@ -131,7 +131,7 @@ Tracer::Step Tracer::step(const State& state, double rest_m, double shortest_m) 
     double length_m = std::min(suitable_length_m(state), rest_m);
     State next = advanced(state, length_m);
 
-    // End the step at a turning point, so that within a step the ray only rises or only falls.
+    // End the step at a turning point, so that the ray only rises or only falls within a step.
     if ((state.sine < 0 && next.sine > 0) || (state.sine > 0 && next.sine < 0)) {
         const double guess_m = length_m * state.sine / (state.sine - next.sine);
         const double turn_m = where_zero(
@@ -144,7 +144,8 @@ Tracer::Step Tracer::step(const State& state, double rest_m, double shortest_m) 
         }
     }
 
-    // Also end the step at the border of the layer, where dN/dh jumps, and at the floor.
+    // Also end the step at the border of the layer, where dN/dh jumps, and at the floor of the
+    // trace.
     const double bottom_m = std::max(layer_bottom_m_, floor_m_);
     if (next.height_m <= layer_.top_m && next.height_m >= bottom_m) {
         return {next, length_m, Event::none};
@@ -185,8 +186,8 @@ bool Tracer::run(State state, double farthest_m, std::vector<RayNode>& nodes) {
         if (range_m > nodes.back().range_m) nodes.push_back(node(range_m, state));
         if (next.event == Event::floor) return true;
         if (next.event == Event::border) {
-            // On a border, the direction of the ray determines the next layer. Elsewhere, the
-            // height determines it.
+            // At a border, the direction of the ray determines the next layer; elsewhere, its
+            // height does.
             std::size_t index = profile_.layer_index(state.height_m);
             const bool at_bottom = index > 0 && state.height_m == profile_.layer(index - 1).top_m;
             if (at_bottom && state.sine < 0) --index;
@@ -196,7 +197,7 @@ bool Tracer::run(State state, double farthest_m, std::vector<RayNode>& nodes) {
     return false;
 }
 
-// Returns the cubic through two values with given slopes, at a share t of the way between them.
+// Returns the value at the share t of the way on the cubic through two values with given slopes.
 double hermite(double t, double length, double from, double from_slope, double to,
                double to_slope) {
     const double rise = to - from;
@@ -205,7 +206,7 @@ double hermite(double t, double length, double from, double from_slope, double t
     return from + t * (rise + (1 - t) * (a * (1 - t) + b * t));
 }
 
-// Returns the index of the node at or before x, which must be between the first and the last node.
+// Returns the index of the last node at or before x. x must be between the first and the last node.
 template <class Key>
 std::size_t stretch(const std::vector<RayNode>& nodes, double x, Key key) {
     const auto after =
@@ -228,7 +229,7 @@ TracedRay::TracedRay(const RefractivityProfile& profile, const RayOptions& optio
         Tracer back(profile, options.earth_radius_m, options.range_kind, -infinity);
         back.run({altitude_m, -sine, 0}, options.behind_m, nodes_);
         std::reverse(nodes_.begin(), nodes_.end());
-        nodes_.pop_back();  // the antenna
+        nodes_.pop_back();  // drop the antenna, which ends one trace and begins the other
         for (RayNode& node : nodes_) {
             node.range_m = -node.range_m;
             node.arc_m = -node.arc_m;

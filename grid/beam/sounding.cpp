@@ -40,7 +40,8 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Returns the text before the next separator, and removes both from the front of `rest`.
+// Returns the text before the next separator. Removes this text and the separator from the front of
+// `rest`.
 std::string_view take(std::string_view& rest, char separator) {
     const auto end = rest.find(separator);
     const std::string_view piece = rest.substr(0, end);

@@ -1,11 +1,11 @@
 // grid/beam/sounding.h -- reads a refractivity profile from a sounding, a text file with one line
 // for each level.
 //
-// Format    UTF-8 (with or without a byte order mark) or ASCII of at most 1 MiB. Lines end with LF
+// Format    UTF-8 (with or without a byte order mark) or ASCII, of at most 1 MiB. Lines end with LF
 //           or CR LF. Empty lines, and anything after a #, are skipped. The first remaining line
-//           names the columns; each later line has one number for each column, separated by commas,
-//           with any blanks and tabs around them. Columns may be in any order; columns with other
-//           names are skipped. docs/geometry.md shows an example. The file needs
+//           names the columns. Each later line has one number for each column; commas separate the
+//           numbers, and blanks and tabs may be around them. Columns may be in any order; columns
+//           with other names are skipped. docs/geometry.md shows an example. The file needs
 //             height_m             above mean sea level, strictly rising, the first at most 9,000 m
 //           and either
 //             refractivity         N-units, above 0 and at most 1000
@@ -17,7 +17,7 @@
 // Source    N = 77.6 p / T + 3.73e5 e / T^2, and the saturation pressure over water: ITU-R P.453-7
 //           eqs 2-6 (within 0.5 % up to 100 GHz).
 // Threads   Pure functions; read_sounding() reads a file.
-// Errors    bad_argument, with the file, line and column; errors of reading the file, such as
+// Errors    bad_argument, with the file, line and column; those of reading the file, such as
 //           not_found and io.
 #pragma once
 

@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Pools rows: means and mean squares are weighted by the number of gates.
+// Pools rows. Weights their means and mean squares by the numbers of gates.
 class Pool {
   public:
     void add(const AuditRow& row) {
@@ -55,7 +55,7 @@ std::vector<AuditRow> pooled_by(std::span<const AuditRow> rows, float AuditRow::
 bool is_possible(const AuditRow& row) {
     const bool finite = std::isfinite(row.elevation_deg) && std::isfinite(row.range_from_m) &&
                         std::isfinite(row.rms) && std::isfinite(row.mean);
-    // If all differences are equal, their mean may exceed their RMS by rounding.
+    // If all differences are equal, rounding may make their mean larger than their RMS.
     constexpr float rounding = 1.00001F;
     return finite && row.range_from_m >= 0 && row.range_to_m > row.range_from_m &&
            row.count <= row.same_status && row.same_status <= row.sampled && row.rms >= 0 &&

@@ -14,10 +14,11 @@
 namespace stormcellar::grid {
 namespace {
 
-// Make several pieces for each thread, because storms make some bricks costlier than others.
+// Each thread has several pieces of work, because storms make some bricks costlier than others.
 constexpr int pieces_a_thread = 4;
 
-// Returns the nearest code. A value beyond the range of codes is clamped to its end, and counted.
+// Returns the nearest code. Clamps a value beyond the range of codes to the end of the range, and
+// counts it.
 std::uint16_t code_of(float value, const Quantization& quantization, std::uint64_t& clamped) {
     const double code = nearest_code(value, quantization);
     if (is_within<double>(code, quantization.first_code(), quantization.largest_code())) {
@@ -68,7 +69,8 @@ class BrickReader {
         }
     }
 
-    // Copies the states; ambiguous (5) becomes code 3. Returns true if one of them is a value (3).
+    // Copies the states. Writes ambiguous (5) as code 3. Returns true if one of the states is a
+    // value (3).
     template <int count>
     static bool copy_states(const CellStatus* status, Code* to) {
         std::uint8_t largest = 0;
@@ -92,14 +94,15 @@ struct CodeCounts {
     std::size_t not_seen = 0;
     std::size_t no_echo = 0;
     std::size_t range_folded = 0;
-    std::uint16_t smallest = 65535;  // over the cells with a value
+    std::uint16_t smallest = 65535;  // the smallest code of a cell with a value
     std::uint16_t largest = 0;
     [[nodiscard]] std::size_t values() const {
         return brick_cells - not_seen - no_echo - range_folded;
     }
 };
 
-// Returns how many codes equal `wanted`, in rows of 128 codes, so that a counter needs one byte.
+// Returns how many codes equal `wanted`. Counts in rows of 128 codes, so that a counter needs only
+// one byte.
 template <class Code>
 std::size_t count_of(const Code* codes, Code wanted) {
     constexpr std::size_t row = 128;
@@ -113,15 +116,16 @@ std::size_t count_of(const Code* codes, Code wanted) {
     return count;
 }
 
-// Each count has its own loop, because the compiler vectorizes such loops. A single loop for all
-// counts is not vectorized and took ten times as many instructions.
+// Each count has a loop of its own, because the compiler vectorizes such loops. It does not
+// vectorize a single loop for all counts, which took ten times as many instructions.
 template <class Code>
 CodeCounts count_codes(const Code* codes) {
     CodeCounts counts;
     counts.not_seen = count_of(codes, Code{0});
     counts.no_echo = count_of(codes, Code{1});
     counts.range_folded = count_of(codes, Code{2});
-    // Subtract, so that codes of values start at 0; codes of states wrap around and are larger.
+    // Subtract first_value_code, so that codes of values start at 0. Codes of states then wrap
+    // around and are larger.
     const auto wrapped = [](Code code) { return static_cast<Code>(code - first_value_code); };
     Code smallest = wrapped(0);
     for (std::size_t i = 0; i < brick_cells; ++i)
@@ -162,8 +166,8 @@ void read_columns(const Grid& grid, const BrickView& shape, int begin_x, int end
     writer.count_clamped(reader.clamped_count());
 }
 
-// Fills the grid in pieces along x. Each writer gets one piece, in order, so that the states of all
-// writers are in order.
+// Fills the grid in pieces along x. Each writer gets the next piece, so that the states of all
+// writers together are in order.
 template <class Code>
 void read_all(const Grid& grid, int threads, BrickGrid& made) {
     const BrickView shape = made.view();
@@ -248,8 +252,8 @@ void BrickGrid::finish_again(std::span<BricksWriter> writers) {
     std::size_t count = 0;
     for (const BricksWriter& writer : writers)
         count += writer.bricks_with_states_.size();
-    // Until all blocks are in order, the status_index of a brick that was just written is an index
-    // in the new blocks, and the status_index of any other brick is an index in the old blocks.
+    // While a grid is written, the status_index of a brick that was written is an index in the new
+    // blocks. The status_index of any other brick is an index in the old blocks.
     std::vector<const std::byte*> new_blocks;
     new_blocks.reserve(count);
     std::vector<bool> is_new(bricks_.size());
@@ -338,7 +342,7 @@ void BricksWriter::copy(std::size_t brick, const BrickView& from, std::size_t fr
         return add_states(brick, states, source.checksum);
     }
     grid_->bricks_[brick] = source;
-    // The source's packed_bytes is a length in the source's file.
+    // The value copied into packed_bytes is a length in the source's file, so drop it.
     grid_->bricks_[brick].packed_bytes = 0;
     if (source.kind == BrickKind::uniform) return;
     const std::size_t size = brick_cells * static_cast<std::size_t>(from.quantization.code_bytes);

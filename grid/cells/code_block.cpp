@@ -6,7 +6,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// Returns the part of a box that is in the grid; if there is none, a box with x1 < x0 or y1 < y0.
+// Returns the part of a box that is in the grid. If no part is, returns a box with x1 < x0 or y1 <
+// y0.
 ColumnBox inside(const BrickView& view, const ColumnBox& box) {
     return {std::max(box.x0, 0), std::max(box.y0, 0), std::min(box.x1, view.spec->nx - 1),
             std::min(box.y1, view.spec->ny - 1)};

@@ -1,8 +1,8 @@
-// grid/cells/code_block.h -- the codes of a rectangle of columns and sixteen levels, unpacked.
+// grid/cells/code_block.h -- the unpacked codes of a rectangle of columns and sixteen levels.
 //
-// A block holds 16-bit codes, or the code of a state, for every kind of brick (uniform, states,
-// codes of one or two bytes). Places beyond the grid have the code of "not seen". Only code inside
-// grid/ uses a CodeBlock, to read the neighbors of cells.
+// A block holds a 16-bit code for each cell: the code of a value or of a state, whatever the kind
+// of the brick (uniform, states, codes of one or two bytes). Places beyond the grid have the code
+// of "not seen". Only code inside grid/ uses a CodeBlock, to read the neighbors of cells.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -22,8 +22,8 @@ struct ColumnBox {
 
 class CodeBlock {
   public:
-    // Returns the state that all cells of the box have at brick height `bz` if all bricks there are
-    // uniform with one state, else none. Columns beyond the grid count as not seen.
+    // Returns the state that all cells of the box have at brick height `bz`, if all bricks there
+    // are uniform with this state; else none. Columns beyond the grid count as not seen.
     [[nodiscard]] static std::optional<CellStatus> uniform_status(const BrickView& view,
                                                                   const ColumnBox& box, int bz);
     void read(const BrickView& view, const ColumnBox& box, int bz);

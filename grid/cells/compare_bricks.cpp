@@ -6,7 +6,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Compares the bricks with one bx.
+// Compares the bricks that have the same bx.
 class RowComparer {
   public:
     RowComparer(const BrickView& a, const BrickView& b, BrickDifferences& found)

@@ -1,10 +1,11 @@
-// grid/cells/compare_bricks.h -- how two grids of the same cells differ, cell by cell.
+// grid/cells/compare_bricks.h -- compares two grids of the same cells, cell by cell.
 //
-// The grids may be made in different ways and have different quantizations: for example, a mosaic
-// by a cheap chain and the same mosaic by the exact chain (pipeline/plan/mosaic_plan.h). Do not
-// compare moments that wrap (VEL, PHI), because values are subtracted as plain numbers.
+// The grids may be made in different ways and have different quantizations. For example, one is a
+// mosaic by a cheap chain and the other the same mosaic by the exact chain
+// (pipeline/plan/mosaic_plan.h). Do not compare moments that wrap (VEL, PHI), because values are
+// subtracted as plain numbers.
 //
-// Threads   Pure; the result is the same for any number of threads.
+// Threads   Pure. The result is the same for any number of threads.
 #pragma once
 
 #include <vector>
@@ -16,10 +17,12 @@
 namespace stormcellar::grid {
 
 struct BrickDifferences {
-    std::vector<float> values;  // a - b of each cell with a value in both, in the order of bricks
-    accuracy::StatusCounts status;  // over cells that at least one of the two grids has seen
+    // A - b for cells with a value in both grids, in the order of bricks.
+    std::vector<float> values;
+    accuracy::StatusCounts status;  // counts the cells that at least one of the grids has seen
 
-    // Summarizes the magnitudes of all differences; none if no cell has a value in both grids.
+    // Summarizes the magnitudes of all differences. Returns none if no cell has a value in both
+    // grids.
     [[nodiscard]] std::optional<accuracy::ErrorSummary> summary() const;
 };
 

@@ -1,7 +1,8 @@
-// grid/cells/cut_bricks.h -- cuts a window out of a quantized grid, as a grid of its own.
+// grid/cells/cut_bricks.h -- cuts a window out of a quantized grid. The window is a grid of its
+// own.
 //
 // Threads   Pure function.
-// Errors    None: the window must be within the grid and hold whole bricks (is_whole_bricks()).
+// Errors    None. The window must be within the grid and hold whole bricks (is_whole_bricks()).
 // Accuracy  Every cell keeps its state and its code.
 #pragma once
 

@@ -15,7 +15,7 @@ struct Between {
 };
 
 std::optional<Between> between(double place, int cells) {
-    // This test also refuses NaN.
+    // This form of the test also refuses NaN.
     if (!std::isgreaterequal(place, 0.0) || !std::islessequal(place, cells - 1.0)) {
         return std::nullopt;
     }
@@ -75,7 +75,7 @@ bool GridSampler::find(ColumnPoint column, double level, Corners& corners) const
     const auto y = between(column.y, view_.spec->ny);
     const auto z = between(level, view_.spec->nz());
     if (!x || !y || !z) return false;
-    // Most places are within one brick with a single state, so no cell needs to be read.
+    // Most places are within one brick that has a single state. Then no cell need be read.
     const std::size_t brick = brick_of(x->first, y->first, z->first);
     if (view_.bricks[brick].kind == BrickKind::uniform &&
         brick == brick_of(x->second, y->second, z->second)) {

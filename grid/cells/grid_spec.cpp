@@ -40,8 +40,8 @@ Status validate_levels(const GridSpec& spec) {
     return {};
 }
 
-// Checks the spacing. Fields that the projection does not use must be 0, so that equal grids have
-// equal specs.
+// Checks the spacing. Fields that the projection does not use must be 0, so that specs of equal
+// grids are equal.
 Status validate_spacing(const GridSpec& spec) {
     const bool in_degrees = spec.in_degrees();
     const double spacing = in_degrees ? spec.spacing_deg : spec.spacing_m;
@@ -63,8 +63,8 @@ Status validate_spacing(const GridSpec& spec) {
     return {};
 }
 
-// Returns true if an offset in cells is a multiple of one half and keeps the grid inside the
-// largest grid about the center.
+// Returns true if an offset in cells is a multiple of one half, and the grid is then within the
+// largest possible grid about the center.
 bool is_window_offset(double offset_cells, int cells) {
     constexpr double farthest = 0.5 * GridSpec::greatest_side;
     const double most = farthest - 0.5 * cells;

@@ -41,8 +41,8 @@ Status GridTally::add(const BrickView& grid) {
     return {};
 }
 
-// Counts a column. If the column has no stored brick, no cell has a value, so the search ends at
-// the first seen cell.
+// Counts a column. If the column has no stored brick, no cell of it has a value. Then the search
+// ends at the first cell that was seen.
 void GridTally::count_column(const BrickView& grid, int ix, int iy) {
     const std::size_t base = grid.offset_x(ix) + grid.offset_y(iy);
     std::uint16_t greatest = 0;

@@ -1,12 +1,13 @@
-// grid/cells/grid_tally.h -- counts what many grids of one shape show, for statistics over months
-// and years. It counts the greatest value and the echo top of each column and, on request, the
+// grid/cells/grid_tally.h -- counts the values of many grids of one shape, for statistics over
+// months and years. Counts the greatest value and the echo top of each column and, on request, the
 // values of each cell.
 //
 // Places that were not seen are counted separately from places without echo, so that a blind region
-// does not look dry. The tallies of the parts of a period, added in any order, equal the tally of
-// the whole period bit for bit (grid/cells/value_tally.h, which has units and accuracy).
+// does not look dry. If the tallies of the parts of a period are added, in any order, the sum is
+// the tally of the whole period, bit for bit (grid/cells/value_tally.h, which states units and
+// accuracy).
 //
-// Range     2^32 grids.
+// Range     Up to 2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
 // Errors    bad_argument for grids of another shape or quantization.
 #pragma once
@@ -32,18 +33,18 @@ class GridTally {
 
     GridTally(GridSpec spec, Quantization quantization, Tallied tallied = Tallied::columns);
 
-    // Counts one grid: for each column, whether any of its cells was seen, its greatest value, and
-    // the highest level with at least 18.5 dBZ.
+    // Counts one grid. For each column, counts whether any of its cells was seen, its greatest
+    // value, and the highest level with at least 18.5 dBZ.
     [[nodiscard]] Status add(const BrickView& grid);
     [[nodiscard]] Status add(const GridTally& more);
 
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
     [[nodiscard]] const Quantization& quantization() const { return quantization_; }
     [[nodiscard]] std::uint64_t grids() const { return grids_; }
-    // Returns the tally of the columns' greatest values; the index is iy * nx + ix.
+    // Returns the tally of the greatest values of columns. The index of a column is iy * nx + ix.
     [[nodiscard]] const ValueTally& columns() const { return columns_; }
-    // Returns the tally of the cells' values, or none if cells are not counted. The index is
-    // GridSpec::index().
+    // Returns the tally of the values of cells, or none if cells are not counted. The index of a
+    // cell is GridSpec::index().
     [[nodiscard]] const std::optional<ValueTally>& cells() const { return cells_; }
     [[nodiscard]] std::uint32_t tops_from(std::size_t column, std::size_t level) const;
 
@@ -67,8 +68,8 @@ class GridTally {
     std::uint64_t grids_ = 0;
     ValueTally columns_;
     std::optional<ValueTally> cells_;
-    std::vector<std::uint32_t> tops_;  // by column, then level
-    std::uint16_t top_code_ = 0;       // the first code that counts for the echo top
+    std::vector<std::uint32_t> tops_;  // index: column, then level
+    std::uint16_t top_code_ = 0;       // the smallest code that counts for the echo top
 };
 
 }  // namespace stormcellar::grid

@@ -14,11 +14,11 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int circle_points = 720;
-// Between two sampled points, the circle bulges by 1e-5 of its radius. The rest of this factor is a
-// margin for projections.
+// The circle is sampled at points. Between two points, it bulges by 1e-5 of its radius. The rest of
+// this factor is a margin for projections.
 constexpr double bulge = 1.001;
-// If two neighboring points on the circle are more than this many times as far apart in the plane
-// as on the earth, the plane is torn between them.
+// If two neighboring points on the circle are farther apart in the plane than on the earth, by more
+// than this factor, the plane is torn between them.
 constexpr double largest_stretch = 8;
 
 // A range of columns or rows, both ends included.
@@ -44,14 +44,14 @@ std::vector<GeoPoint> circle_about(const SitePosition& site, double radius_m) {
     return circle;
 }
 
-// Returns true if a pole is nearer than `radius_m`.
+// Returns true if the pole is within `radius_m` of the site.
 bool holds_pole(const SitePosition& site, double radius_m, double pole_deg) {
     const SiteFrame frame(site.latitude_deg, site.longitude_deg);
     return frame.to_polar({pole_deg, site.longitude_deg}).arc_m < radius_m;
 }
 
-// Returns the range for a grid in degrees, where rows are latitudes and columns are longitudes. The
-// columns may be beyond both ends of the domain.
+// Returns the ranges for a grid in degrees, where rows are latitudes and columns are longitudes.
+// The columns may extend beyond both ends of the domain.
 Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radius_m) {
     const GridProjection projection(domain);
     const double site_x = projection.to_column({site.latitude_deg, site.longitude_deg}).x;
@@ -71,9 +71,9 @@ Box box_in_degrees(const GridSpec& domain, const SitePosition& site, double radi
     return box;
 }
 
-// Returns the range for a grid in a plane, or none if the plane is torn within the circle.
+// Returns the ranges for a grid in a plane, or none if the plane is torn within the circle.
 std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site, double radius_m) {
-    const MaskedTraps masked;  // a projection may give infinity where it shows nothing
+    const MaskedTraps masked;  // a projection may give infinity for a place that it does not show
     const GridProjection projection(domain);
     const double step_m = 2 * 3.15 * radius_m / circle_points;
     const double longest = largest_stretch * step_m / domain.spacing_m;
@@ -87,7 +87,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
         box.y.add(at.y);
         last = at;
     }
-    // The box around the projected circle also holds the projected inside of the circle, unless the
+    // The box around the projected circle also holds the inside of the circle, unless the
     // projection turns the circle inside out.
     const ColumnPoint middle = projection.to_column({site.latitude_deg, site.longitude_deg});
     const bool inside = is_within(middle.x, box.x.least, box.x.greatest) &&
@@ -96,7 +96,7 @@ std::optional<Box> box_in_plane(const GridSpec& domain, const SitePosition& site
     return box;
 }
 
-// Columns from `first` to before `end`, extended to whole bricks.
+// The columns from `first` to before `end`. They are whole bricks.
 struct Span {
     int first = 0;
     int end = 0;
@@ -110,8 +110,8 @@ Span whole_bricks(const Range& range, int count) {
             std::min(count, bricks_along(static_cast<int>(end)) * brick_edge)};
 }
 
-// Returns whole bricks around a range. In a grid in degrees, a column and the columns one whole
-// turn to the west and to the east show the same places.
+// Returns the whole bricks around a range. In a grid in degrees, a column one turn to the west or
+// to the east shows the same places.
 Span whole_bricks_around(const Range& range, const GridSpec& domain) {
     const double turn = 360 / domain.spacing_deg;
     Span all;
@@ -134,7 +134,7 @@ GridSpec window_spec(const GridSpec& domain, const GridWindow& window) {
     spec.nx = window.nx;
     spec.ny = window.ny;
     // Column 0 of the window is column first_x of the domain, so the center moves by first_x
-    // columns. Numbers of this size are exact, including halves.
+    // columns. This is exact, because numbers of this size are, including halves.
     spec.offset_x_cells = 0.5 * (window.nx - 1) - (domain.center_x() - window.first_x);
     spec.offset_y_cells = 0.5 * (window.ny - 1) - (domain.center_y() - window.first_y);
     return spec;

@@ -1,7 +1,6 @@
-// grid/cells/level_table.h -- the levels of a grid, and the place of a height among them.
+// grid/cells/level_table.h -- the levels of a grid. Finds a height among them.
 //
-// A lookup is exact, because it starts from a table of equal steps and then searches along the
-// levels.
+// A lookup starts from a table of equal steps and then searches along the levels, so it is exact.
 //
 // Threads   Immutable.
 #pragma once
@@ -26,8 +25,8 @@ class LevelTable {
         const std::size_t steps = steps_a_level * levels_m_.size();
         first_of_step_.reserve(steps + 1);
         for (std::size_t step = 0; step <= steps; ++step) {
-            // Start each step half a step lower, so that rounding cannot make a lookup skip a
-            // level.
+            // Begin each step half a step lower, so that a lookup cannot skip a level because of
+            // rounding.
             const float begin = static_cast<float>(step) - 0.5F;
             while (level + 1 < levels_m_.size() && step_of(levels_m_[level]) < begin)
                 ++level;
@@ -40,7 +39,7 @@ class LevelTable {
     [[nodiscard]] float operator[](std::size_t level) const { return levels_m_[level]; }
     [[nodiscard]] float top_m() const { return levels_m_.back(); }
 
-    // Returns the first level that is not below a height; size() if there is none.
+    // Returns the first level at or above a height; size() if there is none.
     [[nodiscard]] std::size_t first_from(float height_m) const {
         if (height_m > levels_m_.back()) return levels_m_.size();
         if (height_m <= levels_m_.front()) return 0;

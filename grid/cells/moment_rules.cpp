@@ -43,7 +43,7 @@ Quantization default_quantization(Moment moment) {
 
 std::string_view difference_unit(Moment moment) {
     const std::string_view units = level2::moment_units(moment);
-    return units == "dBZ" ? "dB" : units;  // a ratio of two Z is in dB
+    return units == "dBZ" ? "dB" : units;  // the ratio of two values of Z is in dB
 }
 
 }  // namespace stormcellar::grid

@@ -1,6 +1,6 @@
 // grid/cells/moment_rules.h -- how grids treat the values of each moment.
 //
-// A table here has one row for each moment, and extends the table of stormcellar/level2/moment.h.
+// The table has one row for each moment. It extends the table of stormcellar/level2/moment.h.
 //
 // Threads   Constants.
 #pragma once
@@ -15,12 +15,13 @@ namespace stormcellar::grid {
 
 struct MomentRules {
     level2::Moment moment = level2::Moment::ref;
-    // The coding of stored values. Steps are no coarser than the radar's own codes.
+    // The coding of stored values. The steps between codes are no coarser than those of the
+    // radar's own codes.
     Quantization quantization = {};
     accuracy::ValueUnit value_unit = accuracy::ValueUnit::ratio;  // unit of errors
-    // True if no echo enters a mean with the detection limit of its gate.
+    // True if, in a mean with echo, a gate without echo counts as its detection limit.
     bool has_detection_limit = false;
-    // The reason why values of different sites are not mixed; empty if they are mixed.
+    // The reason why values of different sites are not mixed; empty if they may be mixed.
     std::string_view why_sites_stay_apart = {};
 };
 

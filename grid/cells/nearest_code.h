@@ -7,13 +7,14 @@
 
 namespace stormcellar::grid {
 
-// Returns the code nearest to a value, as a whole number that may be outside the range of codes.
+// Returns the code nearest to a value. It is a whole number, which may be outside the range of
+// codes.
 [[nodiscard]] inline double nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /
         static_cast<double>(quantization.step);
-    // Adding 2^52 rounds to the nearest whole number (halves to even), because doubles above 2^52
-    // have no fraction.
+    // Adding 2^52 rounds to the nearest whole number (halves to even), because a double above 2^52
+    // has no fraction.
     constexpr double no_fraction = 0x1.8p52;
     return steps + no_fraction - no_fraction + first_value_code;
 }

@@ -13,9 +13,10 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
-constexpr double rounding_deg = 1e-9;        // 0.1 mm: the error that sums of spacings may have
-constexpr double largest_parallel_deg = 89;  // for parallels and the center of a cone
-constexpr double flattest_cone_deg = 0.01;   // a smaller mean parallel makes a cylinder
+constexpr double rounding_deg = 1e-9;        // 0.1 mm; sums of spacings may be off by this much
+constexpr double largest_parallel_deg = 89;  // limit for the parallels and the center of a cone
+// A cone whose mean parallel is nearer to the equator is a cylinder.
+constexpr double flattest_cone_deg = 0.01;
 
 using Cone = GeographicLib::LambertConformalConic;
 
@@ -75,16 +76,17 @@ Status validate_parallels(const GridSpec& spec) {
     return {};
 }
 
-// Checks a cone, which is cut open along the meridian opposite its center. The wedge of the plane
-// behind the cut, and the part beyond the pole at the tip of the cone, show nothing, or places that
-// are already elsewhere on the map. So the grid must reach neither part.
+// Checks a cone, which is cut open along the meridian opposite its center. Beyond the cut, a wedge
+// of the plane shows nothing, or places that are elsewhere on the map already. So does the part
+// beyond the pole at the tip of the cone. The grid must reach neither.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
-    const double side = cone.OriginLatitude() < 0 ? -1 : 1;  // the pole at the tip
+    // Side of the pole that is at the tip of the cone.
+    const double side = cone.OriginLatitude() < 0 ? -1 : 1;
     const double tip_m =
         side * (cone_northing_m(cone, side * 90) - cone_northing_m(cone, spec.center_latitude_deg));
     const double half_width_m = (std::abs(spec.offset_x_cells) + 0.5 * spec.nx) * spec.spacing_m;
-    // The distance that the grid reaches toward the tip.
+    // The height of the cone that the grid must not exceed on the side of the tip.
     const double height_m = (side * spec.offset_y_cells + 0.5 * spec.ny) * spec.spacing_m;
     const double turn_deg = std::atan2(half_width_m, tip_m - height_m) * degrees_per_radian;
     const double cut_deg = 180 * std::sin(std::abs(cone.OriginLatitude()) / degrees_per_radian);
@@ -100,7 +102,7 @@ Status validate_cone(const GridSpec& spec) {
 
 struct GridProjection::Constants {
     Cone cone;
-    double cone_y_m = 0;  // distance of the center from the cone's own origin
+    double cone_y_m = 0;  // distance of the center from the origin of the cone
 };
 
 GridProjection::GridProjection(const GridSpec& spec)

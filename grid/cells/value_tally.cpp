@@ -25,7 +25,7 @@ ValueTally::ValueTally(std::size_t places, Quantization quantization)
       greatest_(places),
       codes_(places),
       powers_(places) {
-    // Tabulate the numbers that depend only on the code.
+    // Tabulate the numbers that depend on the code alone.
     const std::size_t codes = std::size_t{quantization_.largest_code()} + 1;
     bin_of_.resize(codes);
     power_of_.resize(codes);

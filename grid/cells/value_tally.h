@@ -1,15 +1,15 @@
-// grid/cells/value_tally.h -- counts the values of places in many grids.
+// grid/cells/value_tally.h -- counts the values that many grids have at each place.
 //
 // A place is a cell or a column. The value of a column is the greatest value of its cells
-// (grid/cells/grid_tally.h). All sums are integers, so the tallies of the parts of a period, added
-// in any order, equal the tally of the whole period bit for bit.
+// (grid/cells/grid_tally.h). All sums are integers. So if the tallies of the parts of a period are
+// added, in any order, the sum is the tally of the whole period, bit for bit.
 //
 // Units     Reflectivity in dBZ.
-// Range     2^32 grids.
+// Range     Up to 2^32 grids.
 // Threads   Plain data; one thread at a time changes it.
-// Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is within 2.5 dBZ, except in the
-//           first and the last bin. Means and maxima are exact for the codes. A sum of Z rounds
-//           each value to 0.001 mm^6/m^3.
+// Accuracy  A quantile is the middle of a bin of 5 dBZ, so it is off by at most 2.5 dBZ, except in
+//           the first and the last bin. Means and maxima are exact for the codes. In a sum of Z,
+//           each value is rounded to 0.001 mm^6/m^3.
 #pragma once
 
 #include <algorithm>
@@ -33,13 +33,13 @@ class ValueTally {
 
     ValueTally(std::size_t places, Quantization quantization);
 
-    // Counts a place that one more grid has seen. Codes below quantization.first_code() mean no
-    // value.
+    // Counts the place in one more grid that has seen it. A code below quantization.first_code()
+    // means that the place has no value.
     void count(std::size_t place, std::uint16_t code) {
         ++seen_[place];
         if (code >= quantization_.first_code()) count_value(place, code);
     }
-    // Adds a tally, which must have as many places and the same quantization.
+    // Adds a tally. It must have as many places and the same quantization.
     void add(const ValueTally& more);
 
     [[nodiscard]] std::size_t places() const { return seen_.size(); }
@@ -49,17 +49,17 @@ class ValueTally {
         return in_bins_[place * bins + bin];
     }
     [[nodiscard]] std::uint32_t from_bin_on(std::size_t place, std::size_t bin) const;
-    // The following functions cover only the grids in which the place has a value.
+    // These functions cover only the grids in which the place has a value.
     [[nodiscard]] double greatest_dbz(std::size_t place) const;
     [[nodiscard]] double mean_dbz(std::size_t place) const;       // mean of the values in dBZ
-    [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // mean of the values as Z, in dBZ
-    // Returns the middle of the lowest bin for which at least this share of the values is in or
-    // below the bin.
+    [[nodiscard]] double mean_z_as_dbz(std::size_t place) const;  // mean of Z, converted to dBZ
+    // Returns the middle of a bin: the lowest bin for which at least this share of the values is in
+    // it or below it.
     [[nodiscard]] double quantile_dbz(std::size_t place, double share) const;
 
-    // append_to() appends bytes_of() bytes, which hold all counts and sums. take_from() reads these
-    // bytes at the front and removes them. Errors: corrupt, for a greatest value that no grid can
-    // have.
+    // append_to() appends bytes_of() bytes, which hold all counts and sums. take_from() reads such
+    // bytes from the front of `bytes` and removes them. Errors: corrupt if a greatest value is one
+    // that no grid can have.
     void append_to(std::vector<std::byte>& bytes) const;
     [[nodiscard]] Status take_from(std::span<const std::byte>& bytes);
     [[nodiscard]] static std::uint64_t bytes_of(std::size_t places);
@@ -69,7 +69,7 @@ class ValueTally {
 
     Quantization quantization_;
     std::vector<std::uint32_t> seen_, in_bins_;
-    std::vector<std::uint16_t> greatest_;        // codes; 0: no value
+    std::vector<std::uint16_t> greatest_;        // code of the greatest value; 0: no value
     std::vector<std::uint64_t> codes_, powers_;  // sums of codes, and of Z in thousandths
     std::vector<std::uint8_t> bin_of_;           // the bin of each code
     std::vector<std::uint64_t> power_of_;        // the Z of each code, in thousandths
@@ -80,7 +80,7 @@ void append_numbers(const std::vector<Number>& numbers, std::vector<std::byte>& 
     const auto more = std::as_bytes(std::span(numbers));
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
-// Fills `numbers` from the front of `bytes`, which must be long enough, and removes what it read.
+// Fills `numbers` from the front of `bytes`, which must be long enough. Removes what it has read.
 template <class Number>
 void take_numbers(std::span<const std::byte>& bytes, std::vector<Number>& numbers) {
     const auto target = std::as_writable_bytes(std::span(numbers));

@@ -1,4 +1,5 @@
-// grid/fill/beam_mixture.h -- mixes the gates of one sweep over one column, by any method.
+// grid/fill/beam_mixture.h -- mixes the gates of one sweep over one column, for any method of
+// gridding.
 //
 // Units     Meters above mean sea level for heights, degrees for angles.
 // Threads   Pure functions.
@@ -10,8 +11,8 @@
 
 namespace stormcellar::grid {
 
-// The contribution of one sweep to a column. From each sweep to the next, heights rise or stay
-// equal.
+// The contribution of one sweep to a column. In a column, the heights rise or stay equal from each
+// sweep to the next.
 struct BeamMixture {
     Mixture mixture;
     float height_m = 0;
@@ -22,14 +23,14 @@ struct BeamMixture {
 };
 
 // Returns the mixture of the sweep's gates at an azimuth and arc. `footprint` is the outline of a
-// cell with an extent, or null for a point. A cell that holds no gate's center is treated as a
-// point.
+// cell with an extent, or null for a point. A cell whose outline holds the center of no gate is
+// treated as a point.
 [[nodiscard]] Mixture mixture_over(const PolarSweep& sweep, const Method& method,
                                    float beam_width_deg, float azimuth_deg, ArcPlace place,
                                    const Footprint* footprint);
 
-// Returns the heights of the beam over an azimuth and arc, with an empty mixture. The beam has the
-// elevation of its nearest radial if the method uses measured elevations, else the sweep's.
+// Returns the heights of the beam over an azimuth and arc, with an empty mixture. The elevation of
+// the beam is its nearest radial's if the method uses measured elevations, else the sweep's.
 [[nodiscard]] BeamMixture beam_over(const PolarSweep& sweep, const Method& method,
                                     float azimuth_deg, ArcPlace place);
 

@@ -8,8 +8,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// Fills the levels of a column from the lowest up, with one call for each pair of beams. Does not
-// write levels that are not seen.
+// Fills the levels of a column from the lowest up, with one call for each pair of beams. Leaves
+// levels that are not seen as they are.
 template <bool nearest, bool circular>
 class Filler {
   public:
@@ -17,16 +17,16 @@ class Filler {
            std::span<float> values)
         : levels_(levels), blending_(blending), status_(status), values_(values) {}
 
-    // Fills the levels below the lowest beam, which are seen down to the beam's lower edge.
+    // Fills the levels below the lowest beam, down to its lower edge.
     void below(const BeamSample& lowest) {
-        // Close to the antenna, rounding may put the edge above the beam.
+        // Near the antenna, rounding may put the edge above the beam.
         level_ = levels_.first_from(std::min(lowest.lower_edge_m, lowest.height_m));
         fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
 
-    // Fills the levels from `low` to below `high`. If two adjacent beams have one state that is no
-    // value, all levels between them have it. Such levels form a run, which is only noted here;
-    // end_run() fills it when it ends.
+    // Fills the levels from `low` to below `high`. If both beams have the same state, and it is not
+    // a value, all levels between them have this state. Such levels form a run. This function only
+    // notes the run; end_run() fills it.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;
         if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {
@@ -48,7 +48,7 @@ class Filler {
         }
     }
 
-    // Fills the levels above the highest beam, which are seen up to the beam's upper edge.
+    // Fills the levels above the highest beam, up to its upper edge.
     void above(const BeamSample& highest) {
         end_run(highest);
         std::size_t end = level_;
@@ -70,26 +70,28 @@ class Filler {
             std::fill(values_.data() + level_, values_.data() + end, sample.value);
         level_ = end;
     }
-    // Fills a run of equal states, which ends at the beam `last`.
+    // Fills a run of levels with the same state. The run ends at the beam `last`.
     void end_run(const BeamSample& last) {
         if (in_run_) fill_to(levels_.first_from(last.height_m), last.sample);
         in_run_ = false;
     }
 
-    // Returns the share of `high` at the current level, which is at or above low and below high.
+    // Returns the share of the beam `high` at the present level, which is at or above `low` and
+    // below `high`.
     [[nodiscard]] float share(const BeamSample& low, float inverse_m) const {
         return upper_share((levels_[level_] - low.height_m) * inverse_m, nearest);
     }
 
-    // Handles the general case: the two states differ, or values wrap, so the status rule decides
-    // each cell.
+    // Handles the general case, in which the two states differ or values wrap. The status rule
+    // decides each cell.
     void blend_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
         const float inverse_m = 1 / (high.height_m - low.height_m);
         for (; level_ < end; ++level_)
             put(blend_as<circular>(low.sample, high.sample, share(low, inverse_m), blending_));
     }
 
-    // Handles the usual case inside echo: both beams have values, which a plain loop interpolates.
+    // Handles the usual case inside echo, in which both beams have values. A plain loop
+    // interpolates them.
     void values_between(const BeamSample& low, const BeamSample& high, std::size_t end) {
         const float inverse_m = 1 / (high.height_m - low.height_m);
         const float first = low.sample.value;

@@ -1,10 +1,10 @@
 // grid/fill/column.h -- fills the cells of one column from one sample of each sweep.
 //
-// Between the beams of adjacent sweeps, a cell is blended from both, linear in height, or takes the
-// nearer beam (Interpolation::nearest). Elsewhere (below the lowest beam, above the highest, and
-// between sweeps with a lost cut between them), a cell takes the sample of the beam whose edges
-// enclose it, or of the nearer beam if the edges of both do. If no beam encloses the cell, it is
-// not seen. grid/sweep/mixture.h has the rule for a blend of two samples.
+// Between the beams of two adjacent sweeps, a cell is blended from both, linear in height, or takes
+// the nearer beam (Interpolation::nearest). Elsewhere (below the lowest beam, above the highest,
+// and between sweeps with a lost cut between them), a cell takes the sample of the beam whose edges
+// enclose it. If the edges of two beams do, it takes the nearer beam; if none do, it is not seen.
+// grid/sweep/mixture.h has the rule for blending two samples.
 //
 // Threads   Pure functions.
 #pragma once
@@ -17,8 +17,8 @@
 
 namespace stormcellar::grid {
 
-// The contribution of one sweep to a column. From each sweep to the next, heights rise or stay
-// equal. Only the first and the last beam, and beams beside a lost cut, need edges.
+// The contribution of one sweep to a column. In a column, the heights rise or stay equal from each
+// sweep to the next. Only the first beam, the last beam and beams beside a lost cut need edges.
 struct BeamSample {
     Sample sample;
     float height_m = 0;
@@ -28,12 +28,13 @@ struct BeamSample {
 };
 
 // Fills a column from at least one beam. `status` and `values` have one entry for each level. Every
-// status must be not_seen before. Values are written only where the status becomes `value`.
+// status must be not_seen before the call. A value is written only where the status becomes
+// `value`.
 void fill_column(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                  ChosenInterpolation interpolation, std::span<CellStatus> status,
                  std::span<float> values);
-// Fills a column like fill_column(). The template parameters say whether the nearer beam counts
-// alone and whether the moment wraps, so that the loops need not test it.
+// Fills a column as the function above does. The template parameters say whether only the nearer
+// beam counts and whether the moment wraps, so that the loops need not test it.
 template <bool nearest, bool circular>
 void fill_column_as(std::span<const BeamSample> beams, const LevelTable& levels, Blending blending,
                     std::span<CellStatus> status, std::span<float> values);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t tiles_a_piece = 16;
 
-// Converts the values of the columns from Z to dB. Never inlined, so that this step, which is off
-// by default, does not enlarge the usual loop.
+// Converts the values of the columns from Z to dB. This step is off by default. It is never
+// inlined, so that it does not enlarge the usual loop.
 [[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
     for (const TileColumn& column : columns) {
         const std::span status = status_of(work, column);
@@ -25,15 +25,16 @@ constexpr std::size_t tiles_a_piece = 16;
     }
 }
 
-// Fills tiles, one at a time, in arrays that are allocated once: finds the columns of the tile
-// within the range of the radar, plans which sweeps to sample, and fills the columns.
+// Fills tiles, one at a time, in arrays that are allocated once. Finds the columns of a tile that
+// are within the range of the radar, plans which sweeps to sample, and fills the columns.
 template <class Columns>
 class TileFiller {
   public:
     explicit TileFiller(const FillWork& work) : work_(work), filler_(work) {}
 
     void fill(const Tile& tile) {
-        if (!(tile.bounds.least_arc_m < work_.table_end)) return;  // beyond every gate: not seen
+        // The tile is beyond every gate, so nothing in it is seen.
+        if (!(tile.bounds.least_arc_m < work_.table_end)) return;
         find_columns(tile);
         plan_.make(work_.stack.sweeps, work_.stack.adjacent_to_next, tile.bounds,
                    filler_.reach_over(tile));
@@ -77,8 +78,8 @@ Fill sampled_fill(bool circular) {
                     : fill_tiles<SampledColumns<radial_elevations, nearest, false>>;
 }
 
-// Chooses the code for the method. Tests conditions that are equal for all tiles once, outside the
-// loops.
+// Chooses the code for the method. So the loops need not test conditions that are equal for all
+// tiles.
 Fill fill_by(const Method& method, Blending blending) {
     const bool nearest = method.interpolation == Interpolation::nearest;
     const bool sampled = facts_of(method.interpolation).takes_one_gate;
@@ -90,7 +91,7 @@ Fill fill_by(const Method& method, Blending blending) {
     return nearest ? sampled_fill<false, true>(circular) : sampled_fill<false, false>(circular);
 }
 
-// Returns the largest number of sweeps on one side of a sweep that may count with it.
+// Returns the largest number of sweeps on one side of a sweep that may contribute together with it.
 int sweeps_by_pattern(const SweepStack& stack) {
     const std::vector<float>& elevations_deg = stack.elevations_deg;
     int most = 1;
@@ -105,8 +106,8 @@ int sweeps_by_pattern(const SweepStack& stack) {
     return most;
 }
 
-// Returns how far samples reach beyond a column, so that the plan of a tile looks as far beyond the
-// tile. A method with one gate of each sweep does not reach beyond the column.
+// Returns how far samples reach beyond a column. The plan of a tile must look as far beyond the
+// tile. A method that takes one gate of each sweep does not reach beyond the column.
 SampleReach reach_of(const SweepStack& stack, const Method& method) {
     const bool one_gate = facts_of(method.interpolation).takes_one_gate;
     if (one_gate && method.cell == CellExtent::point) return {0, 0, 1, stack.in_order};

@@ -14,14 +14,15 @@
 namespace stormcellar::grid {
 namespace {
 
-// Facts about a sweep for the details, besides its gates.
+// The facts about a sweep that the details need, besides its gates.
 struct SweepFacts {
     std::vector<std::optional<double>> ages_s;  // by position of the radial
     // Places of the gates of each kind; empty unless the caller asks for distances.
     std::vector<std::pair<const level2::SweepMoment*, GatePlaces>> places;
 };
 
-// The center of a sweep's nearest gate, relative to a column.
+// The center of the gate that is nearest to a column, in one sweep. Its place is relative to the
+// column.
 struct NearGate {
     double height_m = 0;
     double across_map_m = 0;  // distance from the column in the plane about the site
@@ -35,7 +36,8 @@ struct SeenBeam {
     std::optional<NearGate> gate;
 };
 
-// A sweep that makes up a height, and its weight; no sweep if the height is not seen.
+// A sweep that contributes at a height, and its weight. There is no sweep if the height is not
+// seen.
 struct Share {
     const SeenBeam* beam = nullptr;
     float weight = 0;
@@ -50,9 +52,9 @@ struct Shares {
     }
 };
 
-// Returns the one or two sweeps that make up a level, with the weights by which grid/fill/column.h
-// fills it. Heights of beams rise; `above` is the index of the first beam above the level, or the
-// number of beams.
+// Returns the one or two sweeps from which grid/fill/column.h fills a level, with their weights.
+// The heights of the beams rise. `above` is the index of the first beam above the level, or the
+// number of beams if there is none.
 Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level_m, bool nearest) {
     const SeenBeam* const low = above > 0 ? &beams[above - 1] : nullptr;
     const SeenBeam* const high = above < beams.size() ? &beams[above] : nullptr;
@@ -69,8 +71,8 @@ Shares shares_at(std::span<const SeenBeam> beams, std::size_t above, float level
     return shares;
 }
 
-// Collects facts that do not depend on the column: the ages of the radials and, if the caller asks
-// for distances, the places of the gates.
+// Collects what does not depend on the column: the ages of the radials and, if the caller asks for
+// distances, the places of the gates.
 std::vector<SweepFacts> facts_of(const DetailWork& work, std::optional<UtcTime> frame_time) {
     std::vector<SweepFacts> facts(work.chosen.size());
     const DetailSet asked = work.options.details;
@@ -121,7 +123,7 @@ class DetailColumns {
         const bool all_unseen = std::all_of(status.begin(), status.end(), [](CellStatus cell) {
             return cell == CellStatus::not_seen;
         });
-        if (all_unseen) return;  // the column may be beyond the tables
+        if (all_unseen) return;  // the column may be beyond the end of the tables
         const ColumnPlace& column = work_.geometry.row(iy)[static_cast<std::size_t>(ix)];
         look(column);
         const bool mixed = asked_.has(Detail::weight) && !takes_one_gate(method_);
@@ -197,9 +199,9 @@ class DetailColumns {
         return std::nullopt;
     }
 
-    // Writes the age, the height offset and the distance of a cell. The age is the weighted mean of
-    // the shares, the height offset is to the nearest beam, and the distance is to the nearest
-    // gate.
+    // Writes the age, the height offset and the distance of a cell. The age is the mean of the ages
+    // of the sweeps, weighted by their shares. The height offset is to the nearest beam, and the
+    // distance to the nearest gate.
     void describe(std::size_t cell, float level_m, const Shares& shares) {
         double age_s = 0;
         bool dated = true;
@@ -224,7 +226,8 @@ class DetailColumns {
         if (asked_.has(Detail::distance) && distance_m) put(Detail::distance, cell, *distance_m);
     }
 
-    // Makes the mixtures of gates with which a method of several gates fills the column.
+    // Mixes gates of each sweep in the same way as a method that fills the column from several
+    // gates.
     void mix(const ColumnPlace& column, int ix, int iy) {
         mixtures_.clear();
         const bool area = method_.cell == CellExtent::area;
@@ -243,7 +246,7 @@ class DetailColumns {
         if (!mixtures_.empty()) mixed_.start(mixtures_);
     }
 
-    // Returns the share of a level that is seen. Call it in rising order of levels.
+    // Returns how much of a level is seen, as a share. Call it in rising order of levels.
     [[nodiscard]] double seen_share(std::size_t level) {
         const std::size_t count = heights_m_.size() / levels_m_.size();
         float unseen = 0;

@@ -1,10 +1,10 @@
 // grid/fill/detail_filler.h -- computes the details of the cells of a grid
 // (stormcellar/grid/cell_details.h).
 //
-// This is a separate pass over a grid whose cells are filled, so that grids without details cost no
-// more.
+// The details are computed in a separate pass, after the cells are filled. So a grid without
+// details takes no longer.
 //
-// Threads   Pure; it uses `options.threads` threads of its own. The result has the same bits for
+// Threads   Pure. It uses `options.threads` threads of its own. The result has the same bits for
 //           any number of threads.
 #pragma once
 
@@ -25,7 +25,8 @@ struct DetailWork {
     const GridderOptions& options;
 };
 
-// Fills grid.details for the set options.details. The status of the grid must be filled.
+// Fills grid.details with the details in options.details. The status of the grid must be filled
+// before.
 void fill_details(const DetailWork& work, Grid& grid);
 
 }  // namespace stormcellar::grid

@@ -17,7 +17,7 @@ Mixture of_one(const BeamMixture& beam, Blending blending) {
     return mixture;
 }
 
-// The beams [first, end), without a lost cut between them.
+// The beams [first, end). No lost cut is between them.
 struct Run {
     std::size_t first, end;
 };
@@ -63,7 +63,7 @@ void MixedColumn::start(std::span<const BeamMixture> beams) {
         steepest_m_per_deg_ = std::max(steepest_m_per_deg_, rise_of(beam));
 }
 
-// Finds the beam above a height. Callers pass rising heights, so the search takes a step or two.
+// Finds the beam above a height. Heights rise from call to call, so the search takes a step or two.
 void MixedColumn::find(float height_m) {
     while (above_ > 0 && beams_[above_ - 1].height_m > height_m)
         --above_;
@@ -71,14 +71,14 @@ void MixedColumn::find(float height_m) {
         ++above_;
 }
 
-// Mixes all beams in reach of a height by the antenna's pattern. `nearest` is the beam that would
-// count if only one beam counted.
+// Mixes all beams within reach of a height, weighted by the antenna's pattern. `nearest` is the
+// beam that would count if only one counted.
 Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width_deg) {
     const auto weight_of = [&](const BeamMixture& beam) {
         return beam_pattern((height_m - beam.height_m) / rise_of(beam), width_deg);
     };
     const float reach_m = reach_m_of(width_deg);
-    // Only beams of the same run count, and only if they are in reach.
+    // Only beams of the same run count, and of these only beams that are within reach.
     Run run = run_around(beams_, nearest);
     while (run.first < nearest && beams_[run.first].height_m < height_m - reach_m)
         ++run.first;
@@ -91,10 +91,10 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
         total += weights_.back();
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
-    // If values wrap, the first beam added is the reference, so the first beam must have the
-    // largest weight. Usually the nearest beam has the largest weight. If neighbors are far apart
-    // and rise differently, the nearest beam may be out of reach; then the first beam with a weight
-    // is the reference.
+    // For values that wrap, the beam that is added first is the reference, so it must have the
+    // largest weight. This is usually the nearest beam. If neighbors are far apart and rise
+    // differently, the nearest beam may be out of reach; then the first beam that has a weight is
+    // the reference.
     std::size_t first = nearest;
     if (!(weights_[nearest - run.first] > 0)) {
         const auto heavy =
@@ -110,7 +110,7 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
     return mixture;
 }
 
-// Returns a width of the pattern at which the two beams around the height always count.
+// Returns the width of the pattern with which the two beams around the height always count.
 float MixedColumn::width_between_deg() const {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -118,8 +118,8 @@ float MixedColumn::width_between_deg() const {
     return std::max(beam_width_deg_, (high.height_m - low.height_m) / mean_rise);
 }
 
-// Returns true if all beams that may count at a height see only no echo. Then the cell is no echo,
-// and nothing needs to be mixed.
+// Returns true if all beams that may count at a height have no echo. Then the cell has no echo, and
+// nothing need be mixed.
 bool MixedColumn::is_quiet_around(float height_m) const {
     const bool by_pattern = interpolation_ == Interpolation::beam_weighted;
     const float reach_m = by_pattern ? reach_m_of(width_between_deg()) : 0;
@@ -134,8 +134,8 @@ bool MixedColumn::is_quiet_around(float height_m) const {
     return true;
 }
 
-// Mixes two adjacent beams. Adds the beam with the larger weight first, because it is the reference
-// of values that wrap.
+// Mixes two adjacent beams. Adds the beam with the larger weight first, because the first is the
+// reference for values that wrap.
 Mixture MixedColumn::between(float height_m) {
     const BeamMixture& low = beams_[above_ - 1];
     const BeamMixture& high = beams_[above_];
@@ -155,8 +155,9 @@ Mixture MixedColumn::between(float height_m) {
     return mixture;
 }
 
-// Returns the mixture at a height that is not between adjacent beams: the nearer beam whose edges
-// enclose the height, for beam_weighted with its neighbors in reach.
+// Returns the mixture at a height that is not between adjacent beams. It takes the nearer beam
+// whose edges enclose the height; for beam_weighted, also the neighbors of this beam that are
+// within reach.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;
@@ -174,7 +175,7 @@ Mixture MixedColumn::at(float height_m) {
 }
 
 // Returns true if no beam and no edge of a beam is between the two heights. Call find(lowest_m)
-// first.
+// before it.
 bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     if (is_between_adjacent()) return false;
     const bool clear_below = above_ == 0 || lowest_m > beams_[above_ - 1].upper_edge_m;
@@ -183,8 +184,8 @@ bool MixedColumn::are_outside(float lowest_m, float highest_m) const {
     return clear_below && clear_above;
 }
 
-// Returns the mean over the heights of a cell with an extent. If the shares of two beams are linear
-// in height, the mean over several heights between the beams equals the mixture in their middle.
+// Returns the mean over the heights of a cell with an extent. Between two beams, shares are linear
+// in height, so the mean over several heights equals the mixture in their middle.
 CellResult MixedColumn::mean_at(std::span<const float> heights_m) {
     const float lowest_m = heights_m.front();
     const float highest_m = heights_m.back();

@@ -1,8 +1,8 @@
 // grid/fill/mixed_column.h -- makes the cells of one column from a mixture of gates of each sweep.
 //
-// This is the general form of grid/fill/column.h, for interpolations that take several gates of a
-// sweep and for cells with an extent. The interpolation decides how much each sweep counts at a
-// height:
+// This is the general form of grid/fill/column.h. It is for interpolations that take several gates
+// of a sweep, and for cells with an extent. The interpolation decides how much each sweep counts at
+// a height:
 //   nearest, linear, eight_point  The two adjacent sweeps around the height, linear in height (or
 //                                 only the nearer sweep).
 //   beam_weighted                 All sweeps that no lost cut separates from the height, by the
@@ -12,10 +12,10 @@
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the sweep whose edges
 // enclose the height counts, or the nearer one if two do; beam_weighted adds the neighbors of this
 // sweep. If no edges enclose the height, it is not seen. A cell with an extent is the mean over
-// four heights, which are the middles of the quarters of its level. A level reaches half way to its
-// neighbors.
+// four heights. A level reaches half way to its neighbors, and the four heights are the middles of
+// its quarters.
 //
-// Threads   A MixedColumn may be used by one thread at a time.
+// Threads   One thread at a time may use a MixedColumn.
 #pragma once
 
 #include <span>
@@ -27,13 +27,13 @@
 
 namespace stormcellar::grid {
 
-// Returns the heights at which a column is evaluated, level by level: one height for each level, or
-// four for cells with an extent.
+// Returns the heights at which a column is evaluated, level by level. There is one height for each
+// level, or there are four for cells with an extent.
 [[nodiscard]] std::vector<float> heights_of_levels(std::span<const float> levels_m,
                                                    CellExtent cell);
 
-// Evaluates columns, one at a time. Pass heights in rising order, because each search starts at the
-// last height.
+// Evaluates columns, one at a time. Pass the heights of a column in rising order, because each
+// search starts at the last height.
 class MixedColumn {
   public:
     MixedColumn(Interpolation interpolation, float beam_width_deg, Blending blending)
@@ -52,7 +52,7 @@ class MixedColumn {
     [[nodiscard]] bool is_between_adjacent() const {
         return above_ > 0 && above_ < beams_.size() && beams_[above_ - 1].adjacent_to_next;
     }
-    // Returns a height difference beyond which no beam counts, with a margin for rounding.
+    // Returns the difference in height beyond which no beam counts, with a margin for rounding.
     [[nodiscard]] float reach_m_of(float width_deg) const {
         return 1.001F * width_deg * steepest_m_per_deg_;
     }
@@ -69,7 +69,8 @@ class MixedColumn {
     Blending blending_;
     std::span<const BeamMixture> beams_;
     float steepest_m_per_deg_ = 0;  // the largest rise of any beam
-    std::size_t above_ = 0;         // the first beam above the height; beams_.size() if none
+    // The first beam above the height; beams_.size() if there is none.
+    std::size_t above_ = 0;
     std::vector<float> weights_;
 };
 

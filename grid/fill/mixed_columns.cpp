@@ -10,7 +10,7 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// Returns the largest distance from the center of a cell to its corner, over all cells of the tile.
+// Returns the largest distance from the center of a cell to its corner, for the cells of the tile.
 float farthest_corner_m(const ColumnGeometry& geometry, const Tile& tile) {
     float radius_m = 0;
     for (int iy = tile.first_y; iy < tile.end_y; ++iy) {
@@ -38,7 +38,7 @@ void MixedColumns::fill(std::span<const PlannedSweep> plan, std::span<const Tile
         fill(plan, column);
 }
 
-// Makes a mixture of gates for each sweep, then lets MixedColumn combine the sweeps at each level.
+// Makes a mixture of gates for each sweep. Then MixedColumn combines the sweeps at each level.
 void MixedColumns::fill(std::span<const PlannedSweep> plan, const TileColumn& column) {
     beams_.clear();
     const bool area = work_.method.cell == CellExtent::area;

@@ -5,7 +5,7 @@
 namespace stormcellar::grid {
 
 // Samples one sweep at all open columns of the tile. If the sweep is uniform over the tile, only
-// the height of its beam is needed.
+// the height of its beam must be computed.
 template <bool radial_elevations, bool nearest, bool circular>
 template <bool sampled>
 void SampledColumns<radial_elevations, nearest, circular>::look_at(
@@ -22,7 +22,7 @@ void SampledColumns<radial_elevations, nearest, circular>::look_at(
         if (radial_elevations && position != AzimuthTable::none)
             heights = sweep.beam().offset(heights, sweep.gates().elevation_offset_deg(position));
         open_[still_open] = at;
-        // If the sweeps are in order, all later sweeps pass even higher over this column, so the
+        // If the sweeps are in order, all later sweeps pass still higher over this column. So the
         // column is finished.
         const bool above_top = heights.center_m > top_m && heights.center_m < highest_beam_m;
         still_open += above_top && work_.stack.in_order ? 0 : 1;

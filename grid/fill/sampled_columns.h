@@ -1,8 +1,8 @@
 // grid/fill/sampled_columns.h -- fills the columns of a tile from one gate of each sweep.
 //
-// The first pass goes sweep by sweep over all columns, so that the tables and gates of a sweep stay
-// in the processor's cache. A column leaves this pass when a beam is above its top level. The
-// second pass fills each column (grid/fill/column.h).
+// The first pass goes through the sweeps, and through all columns for each sweep, so that the
+// tables and gates of a sweep stay in the processor's cache. A column leaves this pass when a beam
+// is above its top level. The second pass fills each column (grid/fill/column.h).
 //
 // Threads   One object for each thread.
 #pragma once
@@ -15,8 +15,8 @@
 
 namespace stormcellar::grid {
 
-// The template parameters are equal for all columns: whether each radial's own elevation counts,
-// whether a cell takes the nearer beam, and whether the moment wraps.
+// The template parameters hold for all columns. They say whether each radial's own elevation
+// counts, whether a cell takes the nearer beam, and whether the moment wraps.
 template <bool radial_elevations, bool nearest, bool circular>
 class SampledColumns {
   public:
@@ -35,7 +35,7 @@ class SampledColumns {
     std::size_t most_beams_ = 0;
     std::vector<BeamSample> beams_;         // `most_beams_` places for each column
     std::vector<std::size_t> beam_counts_;  // of each column
-    std::vector<std::size_t> open_;         // columns in which no beam is above the top yet
+    std::vector<std::size_t> open_;         // columns that no beam has passed above the top yet
 };
 
 }  // namespace stormcellar::grid

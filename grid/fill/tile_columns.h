@@ -1,5 +1,5 @@
-// grid/fill/tile_columns.h -- the columns of a tile and their beams, as all fillers of tiles use
-// them.
+// grid/fill/tile_columns.h -- the columns of a tile with their beams, for all classes that fill
+// tiles.
 //
 // Threads   Plain values. All threads read one `FillWork`; each tile writes its own cells of the
 //           grid.
@@ -22,7 +22,7 @@ struct FillWork {
     const Method& method;
     Blending blending;
     LevelTable levels;
-    // heights at which mixed columns are evaluated, one or four for each level
+    // Heights at which mixed columns are evaluated: one or four for each level.
     std::vector<float> heights_m;
     SampleReach reach;
     float table_end;
@@ -44,9 +44,9 @@ inline std::span<float> values_of(const FillWork& work, const TileColumn& column
     return std::span(work.grid.values).subspan(column.first_cell, work.levels.size());
 }
 
-// Sorts beams by height. Beams may be out of order if their radials were measured higher or lower
-// than their sweeps. A lost cut belongs to a position in the order and not to a beam, so lost cuts
-// do not move.
+// Sorts beams by height. They may be out of order if their radials were measured higher or lower
+// than their sweeps. Lost cuts do not move, because a lost cut belongs to a position in the order
+// and not to a beam.
 template <class Beam>
 void put_in_order(std::span<Beam> beams) {
     const auto lower = [](const Beam& a, const Beam& b) { return a.height_m < b.height_m; };

@@ -5,7 +5,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The sweeps up to `reach` below and above a sweep.
+// The sweeps from `reach` below a sweep to `reach` above it.
 struct Around {
     std::size_t first, last;
 };
@@ -23,9 +23,9 @@ void TilePlan::make(std::span<const PolarSweep> sweeps, const std::vector<bool>&
     for (const PolarSweep& sweep : sweeps)
         uniform_.push_back(sweep.uniform_status(wider));
 
-    // Drop a sweep if it and all sweeps around it are uniform with the same status and no lost cut
-    // is between them. Do not sample a uniform sweep if all sweeps around it are uniform too. No
-    // value is then mixed with its status, so the status needs no detection limit.
+    // Drop a sweep if it and all sweeps around it are uniform with the same status, and no lost cut
+    // is between them. If all of these are uniform but have different statuses, do not sample the
+    // sweep: no value is mixed with its status, so the status needs no detection limit.
     planned_.clear();
     const std::size_t count = sweeps.size();
     for (std::size_t at = 0; at < count; ++at) {

@@ -1,11 +1,11 @@
 // grid/fill/tile_plan.h -- decides which sweeps must be sampled over a tile.
 //
-// A sweep with a single status (no echo or not seen) all over a tile needs no sampling. If the
-// sweeps around it have the same status, the sweep can be dropped, because all cells between equal
-// states have that state anyway.
+// If a sweep has a single status (no echo or not seen) all over a tile, it need not be sampled
+// there. If the sweeps around it have the same status, it can be dropped, because the cells between
+// equal states have that state anyway.
 //
 // Threads   One plan for each thread.
-// Accuracy  Exact: a grid has the same bits as if every sweep were sampled in every column.
+// Accuracy  Exact: the grid has the same bits as if every sweep were sampled in every column.
 #pragma once
 
 #include <span>
@@ -17,13 +17,13 @@ namespace stormcellar::grid {
 
 struct PlannedSweep {
     std::size_t index = 0;                     // index of the sweep
-    bool sampled = true;                       // if false, `status` holds all over the tile
-    CellStatus status = CellStatus::not_seen;  // only if not sampled
-    bool adjacent_to_next = true;              // no lost cut is before the next sweep
+    bool sampled = true;                       // false: `status` holds all over the tile
+    CellStatus status = CellStatus::not_seen;  // meaningful only if not sampled
+    bool adjacent_to_next = true;              // no lost cut is between this and the next sweep
 };
 
-// The reach of samples beyond a column, and the number of sweeps above and below whose values
-// a cell may take.
+// The reach of samples beyond a column, and the number of sweeps above and below from which a cell
+// may take values.
 struct SampleReach {
     float azimuth_deg = 0;
     float arc_m = 0;

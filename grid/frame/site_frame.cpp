@@ -11,7 +11,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// Returns the azimuth in [0, 360). A tiny negative azimuth plus 360 rounds to 360, which becomes 0.
+// Returns the azimuth in [0, 360). A tiny negative azimuth plus 360 would round to 360, so it
+// becomes 0.
 double wrap_azimuth(double azimuth_deg) {
     const double wrapped = std::isless(azimuth_deg, 0.0) ? azimuth_deg + 360 : azimuth_deg;
     return std::isgreaterequal(wrapped, 360.0) ? 0 : wrapped;

@@ -11,8 +11,8 @@ SphereFrame::SphereFrame(double latitude_deg, double longitude_deg) noexcept
       sine_(std::sin(latitude_deg * degree)),
       cosine_(std::cos(latitude_deg * degree)) {}
 
-// North is sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon / 2). The textbook's difference of
-// products would lose accuracy close to the site.
+// The component to the north is sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon / 2). The
+// textbook's difference of two products would lose accuracy close to the site.
 PolarPoint SphereFrame::to_polar(GeoPoint point) const noexcept {
     const double half_turn = 0.5 * degree * (point.longitude_deg - longitude_deg_);
     const double half_sine = std::sin(half_turn);

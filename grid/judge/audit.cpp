@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t classes = audit_range_borders_m.size() + 1;
 
-// Returns the state of a cell for the state of a gate; none for no data, which says nothing about
-// the weather.
+// Returns the state that a cell has if it is like the gate. Returns none for a gate with no data,
+// which says nothing about the weather.
 std::optional<CellStatus> status_of(level2::GateStatus status) {
     switch (status) {
         case level2::GateStatus::valid:
@@ -43,17 +43,18 @@ float shorter_way(float difference, float period) {
     return period > 0 ? std::remainder(difference, period) : difference;
 }
 
-// The status of the grid at a gate, and the difference between grid and gate.
+// The status of the grid at a gate, and the difference between the grid and the gate.
 struct Finding {
     CellStatus status = CellStatus::not_seen;
-    float difference = 0;  // grid minus gate; 0 unless both are values
+    float difference = 0;  // grid minus gate; 0 unless both have a value
 };
 
-// Facts about a gate for mix().
+// The facts about a gate that mix() needs.
 struct Gate {
     float value = 0;
     float period = 0;
-    // The detection limit, which replaces no echo in a mean. NaN: no echo does not enter the mean.
+    // The detection limit, which stands for no echo in a mean. NaN: no echo does not enter the
+    // mean.
     float limit = std::numeric_limits<float>::quiet_NaN();
 };
 
@@ -83,7 +84,7 @@ Finding mix(const GridSampler::Corners& corners, const Gate& gate) {
     return {CellStatus::value, sum / valued};
 }
 
-// The sums of one sweep and one class of ranges.
+// The sums for one sweep and one class of ranges.
 struct Sums {
     std::uint32_t sampled = 0, same_status = 0, count = 0;
     double sum = 0, squares = 0;
@@ -112,7 +113,7 @@ struct Scan {
     bool is_tdwr = false;
 };
 
-// Audits the radials of one kind in a sweep, at some of their gates.
+// Audits the radials of one kind in a sweep. Takes only some of their gates.
 class KindScan {
   public:
     KindScan(const Scan& scan, const level2::Sweep& sweep, const level2::SweepMoment& moment,
@@ -155,7 +156,7 @@ class KindScan {
     }
 
   private:
-    // Returns a moment with only the sampled gates. It serves only to compute their places.
+    // Returns a moment that has only the sampled gates. It is used only to compute their places.
     static level2::SweepMoment thinned(const level2::SweepMoment& moment, int gate_step) {
         level2::SweepMoment few;
         few.first_gate_m = moment.first_gate_m;
@@ -163,7 +164,7 @@ class KindScan {
         few.gate_stride = (moment.gate_stride + gate_step - 1) / gate_step;
         return few;
     }
-    // Returns true if some corners have values and some have no echo.
+    // Returns true if some corners have a value and some have no echo.
     static bool needs_limit(const GridSampler::Corners& corners) {
         bool echo = false;
         bool none = false;

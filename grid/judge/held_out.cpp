@@ -97,8 +97,8 @@ Result<HeldOut> score_held_out(const TimedView& before, const TimedView& held_ou
         const TimeMethod method = facts.method;
         const auto start = Clock::now();
         InstantOptions options{.instant = held_out.middle, .method = method};
-        // The held-out volume also took minutes. Without sweep times, a reconstructed cell and the
-        // held-out cell with which it is compared have about the same time within their volumes.
+        // The held-out volume also took minutes. Without sweep times, a reconstructed cell is
+        // compared with a cell that has about the same time within its volume.
         options.sweep_times = false;
         options.threads = threads;
         std::optional<MotionField> motion;

@@ -15,7 +15,7 @@ double seconds_between(UtcTime from, UtcTime to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// A volume, gridded on the columns of the sequence.
+// A volume that was gridded on the columns of the sequence.
 struct Gridded {
     BrickGrid bricks;
     UtcTime middle;
@@ -29,8 +29,8 @@ Result<Gridded> grid_one(const TimedVolume& timed, const ColumnGeometry& geometr
     return Gridded{BrickGrid::from(*made, default_quantization(options.moment)), middle};
 }
 
-// Returns the sweeps that the gridder chooses at the lowest elevation if it prefers, in turn, the
-// middle time of each sweep of the volume.
+// For each sweep of the volume, makes the gridder prefer the middle time of that sweep, and notes
+// which sweep it chooses at the lowest elevation. Returns all of these.
 std::set<std::size_t> lowest_sweeps(const level2::Volume& volume, const SitePosition& site,
                                     level2::Moment moment) {
     std::set<std::size_t> found;

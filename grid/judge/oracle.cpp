@@ -28,8 +28,8 @@ Real gaussian_radius(Real latitude_deg) {
     return std::sqrt(m * n);
 }
 
-// The beam of the 4/3 earth, by the textbook's formulas, or by bisection if they have no closed
-// form. Other beams have their own oracles (tests/grid/beam_model_test.cpp).
+// The beam of the 4/3 earth, by the textbook's formulas, or by bisection where there is no closed
+// formula. Other beams have oracles of their own (tests/grid/beam_model_test.cpp).
 class Beamline {
   public:
     Beamline(const SitePosition& site, const OracleSetting& setting)
@@ -52,7 +52,7 @@ class Beamline {
         return radius_m_ *
                std::atan2(range_m * std::cos(e), radius_m_ + altitude_m_ + range_m * std::sin(e));
     }
-    // Returns NaN where the beam never passes.
+    // Returns NaN where the beam never passes over the arc.
     [[nodiscard]] BeamGeometry::BeamPoint over(double arc_m, double elevation_deg) const {
         if (model_) return model_->path(elevation_deg).over(arc_m);
         Real near_m = 0;
@@ -74,7 +74,7 @@ class Beamline {
     std::optional<BeamModel> model_;
 };
 
-// One column of a spec: its place, and a test that tells whether a gate is inside its outline.
+// A column of a spec: its place, and a test that tells whether a gate is inside its outline.
 class Outline {
   public:
     Outline(const SitePosition& site, const GridSpec& spec, int ix, int iy)
@@ -106,8 +106,8 @@ class Outline {
     double azimuth_deg = 0, arc_m = 0, radius_m = 0;
 
   private:
-    // Converts the azimuthal equidistant projection anew. Trusts GridProjection for other
-    // projections, which have their own oracle (tests/grid/projection_test.cpp).
+    // Computes the azimuthal equidistant projection without GridProjection. Uses GridProjection for
+    // the others, which have an oracle of their own (tests/grid/projection_test.cpp).
     [[nodiscard]] PolarPoint as_seen(double x, double y) const {
         const MaskedTraps masked;
         GeoPoint place = projection_.to_geo({x, y});
@@ -168,7 +168,7 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
                                          : choice.elevation_deg;
         const double half_deg = setting.beam_width_deg / 2;
         beam.height_m = line.over(outline.arc_m, elevation_deg).height_m;
-        if (std::isnan(beam.height_m)) continue;  // the radial's own beam never passes here
+        if (std::isnan(beam.height_m)) continue;  // the beam of this radial never passes here
         beam.lower_edge_m = line.over(outline.arc_m, elevation_deg - half_deg).height_m;
         beam.upper_edge_m = line.over(outline.arc_m, elevation_deg + half_deg).height_m;
         beam.rise_m_per_deg = rise_of(beam, range_m, half_deg);
@@ -177,8 +177,8 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
     put_in_order();
 }
 
-// Returns the rise per degree from the edges that are on their proper side of the beam's center. If
-// neither is, returns the width of a degree at this range.
+// Returns the rise per degree, computed from the edges that are on the right side of the beam's
+// center. If neither is, returns the width of a degree at this range.
 double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) {
     const bool has_lower = std::islessequal(beam.lower_edge_m, beam.height_m);
     const bool has_upper = std::isgreaterequal(beam.upper_edge_m, beam.height_m);
@@ -190,8 +190,8 @@ double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) 
     return range_m * static_cast<double>(degree);
 }
 
-// Sorts the beams by height, because radials may be measured off their sweeps' elevations. A lost
-// cut keeps its position in the order.
+// Sorts the beams by height. They may be out of order because radials may be measured off their
+// sweeps' elevations. A lost cut keeps its position in the order.
 void OracleColumn::put_in_order() {
     std::vector<bool> adjacent;
     for (const Beam& beam : beams_)
@@ -245,7 +245,7 @@ std::vector<OracleColumn::Share> OracleColumn::beams_at(double height_m) const {
         return by_pattern(share > 0.5 ? above : above - 1, height_m,
                           std::max(setting_.beam_width_deg, spacing_deg));
     }
-    // An edge that never passes over the column is NaN.
+    // The height of an edge that never passes over the column is NaN.
     const bool in_below = has_below && std::islessequal(height_m, beams_[above - 1].upper_edge_m);
     const bool in_above = has_above && std::isgreaterequal(height_m, beams_[above].lower_edge_m);
     if (!in_below && !in_above) return {};

@@ -1,14 +1,14 @@
-// grid/judge/oracle.h -- the gridder's oracle: computes one cell at a time, without shared work or
-// tables, with long double where it matters.
+// grid/judge/oracle.h -- the gridder's oracle. It computes one cell at a time, without shared work
+// or tables, and with long double where it matters.
 //
-// The oracle is slow and obvious, and follows docs/geometry.md, not the gridder. Tests and the
-// accuracy ladder compare the gridder with it. For each column it solves the geodesic and the beams
-// anew and searches every radial. A cell lists all its gates, each with its weight.
+// The oracle is slow and obvious, and follows docs/geometry.md instead of the gridder. Tests and
+// the accuracy ladder compare the gridder with it. For each column it solves the geodesic and the
+// beams anew, and searches every radial. For each cell it lists all gates with their weights.
 //
-// Within its stated accuracy, the gridder may choose a different nearest gate than the oracle.
-// is_doubtful() returns true for a column whose result would change by a shift of less than
-// doubt_range_m or doubt_azimuth_deg, or with the order of beams whose heights differ by less than
-// doubt_height_m.
+// Within its stated accuracy, the gridder may choose another nearest gate than the oracle.
+// is_doubtful() returns true for such a column: its result would change if the column were shifted
+// by less than doubt_range_m or doubt_azimuth_deg, or if beams whose heights differ by less than
+// doubt_height_m changed their order.
 //
 // Threads   One thread for each object.
 #pragma once
@@ -23,11 +23,11 @@ namespace stormcellar::grid {
 struct OracleCell {
     CellStatus status = CellStatus::not_seen;
     double value = 0;
-    double unseen = 1;  // share of the weight that is not seen
-    // The least change of a weight that could change the status.
+    double unseen = 1;  // the share of the weight that is not seen
+    // The smallest change of a weight that could change the status.
     double margin = 1;
-    // True if the values cover more than a quarter of their circle, or if their circles differ.
-    // Then the mean depends on the value from which differences are taken.
+    // True if the values cover more than a quarter of their circle, or if their circles differ. The
+    // mean then depends on the value from which differences are taken.
     bool wide_on_circle = false;
 };
 
@@ -43,8 +43,8 @@ class OracleColumn {
                  int ix, int iy);
 
     [[nodiscard]] bool is_doubtful() const { return doubtful_; }
-    // Computes the cell at a level of the spec, raised by `raised_m`, with the extent of the
-    // setting.
+    // Computes the cell at a level of the spec, raised by `raised_m`. The cell has the extent that
+    // the setting says.
     [[nodiscard]] OracleCell cell(std::size_t level, double raised_m = 0) const;
 
   private:

@@ -133,7 +133,7 @@ WeightedGate OracleSweep::gate(const Radial& radial, std::int32_t number, double
     return gate;
 }
 
-// Adds the nearest gate of a radial, or, if `two` is true, two of its gates, linear in range.
+// Adds the nearest gate of a radial. If `two` is true, adds two of its gates, linear in range.
 void OracleSweep::add_along(const Radial& radial, double range_m, double weight, bool two,
                             std::vector<WeightedGate>& gates, bool& doubtful) const {
     if (radial.kind == nullptr) {
@@ -159,7 +159,7 @@ void OracleSweep::add_along(const Radial& radial, double range_m, double weight,
     gates.push_back(gate(radial, next, weight * std::abs(beyond)));
 }
 
-// Adds two radials, or all radials by the antenna's pattern.
+// Adds two radials, or all radials weighted by the antenna's pattern.
 void OracleSweep::add_radials(double azimuth_deg, std::size_t nearest, double range_m,
                               std::vector<WeightedGate>& gates, bool& doubtful) const {
     const bool by_pattern = setting_.method.interpolation == Interpolation::beam_weighted;

@@ -1,5 +1,5 @@
-// grid/judge/oracle_sweep.h -- finds the gates of one sweep that a point or a cell takes, the slow
-// way: each call searches every radial (grid/judge/oracle.h).
+// grid/judge/oracle_sweep.h -- finds the gates of one sweep from which a point or a cell is made.
+// It does so slowly: each call searches every radial (grid/judge/oracle.h).
 //
 // Threads   One thread for each object.
 #pragma once
@@ -37,18 +37,19 @@ class OracleSweep {
                 const OracleSetting& setting);
 
     // Returns the measured elevation of the radial that sees the azimuth, or the elevation of the
-    // sweep if no radial does. Sets `doubtful` if, within OracleColumn's margins, another radial
-    // may be the nearest.
+    // sweep if no radial does. Sets `doubtful` if another radial may be the nearest, within
+    // OracleColumn's margins.
     [[nodiscard]] double elevation_deg(double azimuth_deg, bool& doubtful) const;
 
-    // Returns the gates at a point by the interpolation of the setting. Their weights add up to 1.
+    // Returns the gates for a point, by the interpolation of the setting. Their weights add up to
+    // 1.
     [[nodiscard]] std::vector<WeightedGate> point(double azimuth_deg, double range_m,
                                                   bool& doubtful) const;
 
     // Returns all gates for which `is_inside(azimuth_deg, range_m)` is true, with equal weights.
-    // Places beyond the last gate of a radial count as not seen. The result is empty if no gate is
-    // inside. The search covers `near_deg` on each side of the azimuth, from `nearest_m` to
-    // `farthest_m`.
+    // Places beyond the last gate of a radial count as not seen. If no gate is inside, the result
+    // is empty. The search covers `near_deg` on each side of the azimuth, and ranges from
+    // `nearest_m` to `farthest_m`.
     using Inside = std::function<bool(double azimuth_deg, double range_m)>;
     [[nodiscard]] std::vector<WeightedGate> inside(const Inside& is_inside, double azimuth_deg,
                                                    double near_deg, double nearest_m,

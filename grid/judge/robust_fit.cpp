@@ -10,14 +10,14 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// The rows do not determine a number if the other numbers explain all but this share of its sum of
-// squared gradients.
+// A number is not determined if the other numbers explain its sum of squared gradients except for a
+// smaller share than this.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;
 
-// The normal equations: sums over rows of weight * gradient * gradient, and of weight * gradient *
-// residual.
+// The normal equations. They are sums over the rows: of weight * gradient * gradient, and of weight
+// * gradient * residual.
 struct Equations {
     std::array<Numbers, fit_size> matrix{};
     Numbers right{};
@@ -40,8 +40,8 @@ struct Equations {
     }
 };
 
-// Solves the equations by Gaussian elimination. `of` is a copy, in which a number that is not
-// sought has a trivial equation.
+// Solves the equations by Gaussian elimination. `of` is a copy; in it, the equation of a number
+// that is not sought becomes trivial.
 std::optional<Numbers> solve(Equations of, FitChoice sought, std::size_t* unclear) {
     for (std::size_t i = 0; i < fit_size; ++i) {
         if (sought[i]) continue;
@@ -95,8 +95,8 @@ std::vector<Equations> equations_of_blocks(std::span<const FitRow> rows, double 
     return blocks;
 }
 
-// Solves without each block in turn, and returns the standard errors from the scatter of the
-// solutions.
+// Leaves out each block in turn and solves for the numbers. Returns their standard errors, computed
+// from the scatter of these solutions.
 Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, FitChoice sought) {
     Numbers errors;
     errors.fill(std::numeric_limits<double>::infinity());
@@ -107,7 +107,7 @@ Numbers jackknife(const std::vector<Equations>& blocks, const Equations& all, Fi
         Equations others = all;
         others.add(block, -1);
         const auto without = solve(others, sought, nullptr);
-        if (!without) return errors;  // only this block determines a number
+        if (!without) return errors;  // a number is determined by this block only
         for (std::size_t i = 0; i < fit_size; ++i) {
             sum[i] += (*without)[i];
             squares[i] += (*without)[i] * (*without)[i];
@@ -129,8 +129,8 @@ std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought, std::size
         return std::nullopt;
     }
     Fit made{.deviation = deviation_of(rows)};
-    // If half the residuals are 0, the deviation is also 0, and all other rows would be outliers
-    // without weight. With a deviation of at least 1e-9, these rows keep a weight.
+    // If half the residuals are 0, the deviation is 0 as well. All other rows would then be
+    // outliers without weight. They keep a weight if the deviation is at least 1e-9.
     const double deviation = std::max(made.deviation, 1e-9);
     const std::vector<Equations> blocks = equations_of_blocks(rows, deviation);
     Equations all;

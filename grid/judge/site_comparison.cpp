@@ -18,14 +18,14 @@ constexpr std::array<const char*, fit_size> fault_names = {"bias", "azimuth", "e
 constexpr std::size_t fewest_blocks = 8;
 constexpr std::size_t fewest_cells = 400;
 constexpr double slowest_mps = 2;
-// Without a motion, the times at which the two sites looked may be at most this far apart. In a
-// longer time, echo moves as far as a fault would move it.
+// If the motion is unknown, the times at which the two sites looked may be at most this far apart.
+// In a longer time, echo would move as far as a fault moves it.
 constexpr double longest_apart_s = 90;
 constexpr int most_rounds = 12;
 // No step is longer than this (dB, degrees, degrees, seconds).
 constexpr std::array<double, fit_size> longest_step = {10, 0.5, 0.5, 60};
-// A step counts as no change if it is below this share of the standard error or of the longest
-// step, whichever is less.
+// A step counts as no change if it is below this share of the standard error, or of the longest
+// step if that is less.
 constexpr double settled = 0.02;
 
 using Numbers = std::array<double, fit_size>;
@@ -75,7 +75,7 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
     return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-// Returns a row for each cell, with A minus B after removing B's faults. Also computes the
+// Returns a row for each cell, with A minus B after the removal of B's faults. Also computes the
 // correlation of A and B.
 std::vector<FitRow> rows_of(const std::vector<SitePair>& pairs, const GridSampler& b,
                             const Numbers& numbers, double least_dbz, double& correlation) {
@@ -108,7 +108,7 @@ std::array<Estimate*, fit_size> estimates_of(SiteComparison& comparison) {
             &comparison.time_s};
 }
 
-// Returns the reason why there are too few cells; empty if there are enough.
+// Returns the reason why there are too few cells, or an empty text if there are enough.
 std::string too_little(std::size_t pairs, std::size_t rows, std::size_t blocks) {
     if (pairs == 0) return "there is no echo where both sites look";
     if (rows >= fewest_cells && blocks >= fewest_blocks) return "";
@@ -132,7 +132,7 @@ std::size_t blocks_of(const std::vector<FitRow>& rows) {
     return static_cast<std::size_t>(std::unique(blocks.begin(), blocks.end()) - blocks.begin());
 }
 
-// Adds a step, cut to its longest length. Returns false if the step is too small to count.
+// Adds a step, limited to the longest step. Returns false if the step is too small to count.
 bool take_step(const Fit& found, Numbers& numbers) {
     bool changes = false;
     for (std::size_t i = 0; i < fit_size; ++i) {
@@ -155,7 +155,8 @@ double median_apart_s(const std::vector<SitePair>& pairs) {
     return *middle;
 }
 
-// Returns the faults to estimate. Sets `untold`, the reason, in the estimates of all other faults.
+// Returns the faults to estimate. For all other faults, sets `untold` in the estimate to the
+// reason.
 FitChoice choose_faults(const ComparisonOptions& options, SiteComparison& comparison) {
     FitChoice sought{true, true, true, true};
     const auto give_up = [&](Fault fault, std::string why) {
@@ -214,7 +215,7 @@ void estimate(const std::vector<SitePair>& pairs, const GridSampler& b,
 }
 
 struct FaultText {
-    const char* more;  // the words for a positive value
+    const char* more;  // the words that describe a positive value
     const char* less;
     const char* unit;
     double limit = 0;
@@ -228,7 +229,7 @@ std::array<FaultText, fit_size> texts(const FaultLimits& limits) {
             FaultText{"clock late by", "clock early by", "s", limits.time_s}};
 }
 
-// Returns a sentence for each of the four estimates for which `words_for` returns words.
+// Returns a sentence for each of the four estimates, unless `words_for` returns no words for it.
 template <class WordsFor>
 std::vector<std::string> sentences(const SiteComparison& comparison, WordsFor words_for) {
     const std::array estimates = {&comparison.bias_db, &comparison.azimuth_deg,

@@ -31,7 +31,7 @@ class Matcher {
         const GridSpec& spec = *a_.view.spec;
         const std::vector<ColumnPoint> columns = busy_columns();
         const auto most = static_cast<std::size_t>(options_.most_columns);
-        // An odd step takes columns from all rows of a brick.
+        // An odd step visits columns in all rows of a brick.
         const std::size_t step = ((columns.size() + most - 1) / most) | 1U;
         std::vector<SitePair> found;
         for (std::size_t i = 0; i < columns.size(); i += step)
@@ -40,8 +40,8 @@ class Matcher {
     }
 
   private:
-    // Returns the columns of A in columns of bricks that hold values and are near enough to both
-    // sites, brick by brick.
+    // Returns the columns of A whose bricks hold values and that are near enough to both sites,
+    // brick by brick.
     [[nodiscard]] std::vector<ColumnPoint> busy_columns() const {
         std::vector<ColumnPoint> found;
         for (int bx = 0; bx < a_.view.bricks_x; ++bx) {
@@ -83,8 +83,8 @@ class Matcher {
         SitePair pair;
         pair.column = b_plane_.to_column(place);
         pair.block = block_of(spec, column);
-        // Compute the shifts for a degree about B and for a meter away from B, from differences
-        // over a tenth of a degree and over 100 m.
+        // Compute the shifts for one degree about B and for one meter away from B. Differences over
+        // a tenth of a degree and over 100 m give these.
         const ColumnPoint turned =
             b_plane_.to_column(b_frame_.to_geo({from_b.azimuth_deg + 0.1, from_b.arc_m}));
         const ColumnPoint farther =
@@ -119,8 +119,8 @@ class Matcher {
         found.push_back(pair);
     }
 
-    // Returns how much later B saw its cell than A did; a grid without details counts as age 0.
-    // Returns none if either age is unknown.
+    // Returns how much later B measured its cell than A did. In a grid without details, all ages
+    // are 0. Returns none if either age is unknown.
     [[nodiscard]] std::optional<double> ages_apart_s(ColumnPoint in_a, ColumnPoint in_b,
                                                      int iz) const {
         const double height_m = a_.view.spec->levels_m[static_cast<std::size_t>(iz)];
@@ -129,7 +129,7 @@ class Matcher {
         if (!a_s || !b_s) return std::nullopt;
         return *b_s - *a_s;
     }
-    // Returns the age of the nearest cell; 0 without details.
+    // Returns the age of the nearest cell, or 0 if the grid has no details.
     static std::optional<double> age_s(const SiteGrid& of, ColumnPoint column, double height_m) {
         if (of.details == nullptr) return 0;
         const GridSpec& spec = *of.view.spec;
