@@ -13,11 +13,12 @@ namespace {
 constexpr double db_per_log2 = 3.0102999566398120;  // 10 log10(2)
 constexpr double nearest_range_m2 = 100.0 * 100.0;  // as in grid/beam/detection_limit.h
 
-// The last bricks of a grid often have only a few levels, for which the loops are shorter.
+// The last bricks of a grid often have at most this many levels. Shorter loops merge these bricks.
 constexpr int few = 4;
 
-// The states in the sixteen codes of a column, as bits. The codes of no echo (1) and range folded
-// (2) are such bits, so an "or" over the column finds the states without a branch.
+// The states that occur in the sixteen codes of a column, as bits. The codes of no echo (1) and
+// range folded (2) are these bits themselves, so an "or" over the column finds the states without a
+// branch.
 constexpr unsigned has_no_echo = 1;
 constexpr unsigned has_folded = 2;
 constexpr unsigned has_value = 4;
@@ -29,8 +30,8 @@ unsigned states_in(const Code* codes) {
     return states;
 }
 
-// Columns whose sixteen cells all have one state. A uniform brick has no codes in memory, so all
-// columns of such a brick point to one of these arrays.
+// Columns of sixteen cells that all have one state. A uniform brick has no codes in memory, so all
+// of its columns point to one of these arrays.
 template <class Code>
 constexpr std::array<std::array<Code, brick_edge>, 3> columns_of_states = [] {
     std::array<std::array<Code, brick_edge>, 3> columns{};
@@ -84,7 +85,7 @@ BrickMerger<Code>::BrickMerger(const MosaicOptions& options, const Quantization&
 }
 
 // Finds the codes of each layer. Stored codes are used in place, packed states are unpacked, and a
-// uniform brick becomes a constant column. Afterward the rules can treat all layers alike.
+// uniform brick becomes a constant column. So the rules can treat all layers alike.
 template <class Code>
 void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExtent& extent) {
     codes_.resize(layers.size());
@@ -105,16 +106,17 @@ void BrickMerger<Code>::open(std::span<const BrickLayer> layers, const BrickExte
             codes_[i] = {columns_of_states<Code>[state].data(), 0};
         }
     }
-    // No rule writes columns and cells beyond the extent, so clear them here.
+    // No rule writes the columns and cells beyond the extent, so clear them here.
     if (extent.cells() == static_cast<int>(brick_cells)) return;
     merged_.codes.fill(0);
     merged_.counts.fill(0);
     merged_.weights.fill(0);
 }
 
-// Prepares the detection limits. In decibels the limit rises by 20 log10(range), so its Z is
+// Prepares the detection limits. In decibels a limit rises by 20 log10(range), so its Z is
 // proportional to the square of the range, arc^2 + (height - altitude)^2. The two terms are
-// computed separately: the heights here, once for each brick, and the arcs for each column.
+// computed separately: the term of the height here, once for each brick, and the term of the arc
+// for each column.
 template <class Code>
 void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
                                     std::span<const double> levels_m) {
@@ -130,8 +132,8 @@ void BrickMerger<Code>::open_limits(std::span<const BrickLayer> layers,
     }
 }
 
-// Finds the layers that see something in this column. Most layers see nothing there, because a site
-// covers little of the domain, and should cost no time.
+// Finds the layers that see something in this column. A site covers little of the domain, so most
+// layers see nothing there, and should cost no time.
 template <class Code>
 void BrickMerger<Code>::find_active(std::size_t column) {
     active_.clear();
@@ -146,7 +148,7 @@ void BrickMerger<Code>::find_active(std::size_t column) {
 }
 
 // Merges a column by the weighted mean. Three frequent cases need no sums: no layer sees anything,
-// only one layer sees something, or all layers that see something see only no echo.
+// only one layer sees anything, or the layers that see something all see no echo.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size_t column,
@@ -172,8 +174,8 @@ void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size
     finish_mean(sums, to, height);
 }
 
-// Adds one layer to the sums of a column. Each state has its own loop, which is skipped if the
-// column lacks the state. Inside a loop, a cell of another state adds 0, so that the loop needs no
+// Adds one layer to the sums of a column. Each state has a loop of its own, which is skipped if the
+// column lacks the state. In this loop, cells of other states add 0, so the loop needs no branches.
 // branches.
 //
 // The codes are copied to wider integers first. The compiler must assume that bytes alias any
@@ -186,8 +188,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     for (std::size_t z = 0; z < size; ++z)
         codes[z] = active.codes[z];
     const auto weight = static_cast<Real>(layer.columns->weights[column]);
-    // No echo adds its weight. If some layer has a value in this column, it also adds its detection
-    // limit as a value.
+    // A cell with no echo adds its weight. If a layer has a value in this column, it also adds its
+    // detection limit as a value.
     if ((active.states & has_no_echo) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.no_echo[z] += codes[z] == 1 ? weight : 0;
@@ -198,14 +200,14 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
                 sums.sum[z] += codes[z] == 1 ? weight * limits[z] : 0;
         }
     }
-    // Range folded adds only its weight.
+    // A cell that is range folded adds only its weight.
     if ((active.states & has_folded) != 0) {
         for (std::size_t z = 0; z < size; ++z)
             sums.folded[z] += codes[z] == 2 ? weight : 0;
     }
     if ((active.states & has_value) == 0) return;
-    // Values add their weight, and weight times value. In Z, values are Z from a table; in dB, they
-    // are codes, because values are linear in codes.
+    // A value adds its weight, and its weight times the value. For a mean in Z, the value is Z,
+    // from a table. For a mean in dB, it is the code, because values are linear in codes.
     std::array<Real, size> values;
     for (std::size_t z = 0; z < size; ++z)
         values[z] =
@@ -217,8 +219,8 @@ void BrickMerger<Code>::add(const BrickLayer& layer, const Active& active, std::
     }
 }
 
-// Computes a layer's detection limits in a column: as Z if the mean is in Z, else as codes. A code
-// is linear in dBZ, and dBZ is linear in log2(Z), so one multiplication turns log2(Z) into a code.
+// Computes a layer's detection limits in a column, as Z if the mean is in Z, else as codes. A code
+// is linear in dBZ, and dBZ is linear in log2(Z). So one multiplication turns log2(Z) into a code.
 template <class Code>
 template <std::size_t size>
 void BrickMerger<Code>::find_limits(const BrickLayer& layer, const Limit& limit, std::size_t column,
@@ -253,7 +255,7 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
             Real code = sums.sum[z] / (with_limits_ ? value + no_echo : value);
             if (in_z_) code = code_base_ + code_per_log2_ * fast_log2(code);
             if (code < Real{first_value_code} - Real{0.5}) ++clamped_;
-            // The code is at least 3, so truncation rounds it down.
+            // The code is at least 3, so truncation rounds down.
             to[z] =
                 static_cast<Code>(std::clamp<Real>(code, first_value_code, largest) + Real{0.5});
         }
@@ -261,8 +263,8 @@ void BrickMerger<Code>::finish_mean(const Sums<size>& sums, Code* to, int height
 }
 
 // Merges a column by the maximum. A value ranks above no echo, no echo above range folded, and
-// range folded above not seen. After swapping codes 1 and 2, a larger code ranks higher, so one
-// maximum over all codes decides; then the two codes are swapped back.
+// range folded above not seen. Swapping codes 1 and 2 gives a larger code a higher rank, so the
+// maximum of all codes decides. Then the two codes are swapped back.
 template <class Code>
 void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
     alignas(64) std::array<Code, brick_edge> most{};
@@ -279,12 +281,12 @@ void BrickMerger<Code>::merge_maximum(std::size_t column, int height) {
         to[z] = ranked(most[static_cast<std::size_t>(z)]);
 }
 
-// Merges a column by the nearest site that sees each cell. The layers fill cells that are still
-// empty, the nearest layer first, until no cell is empty.
+// Merges a column by the nearest site that sees each cell. The layers, nearest first, fill the
+// cells that are still empty, until no cell is empty.
 template <class Code>
 void BrickMerger<Code>::merge_nearest(std::span<const BrickLayer> layers, std::size_t column,
                                       int height) {
-    // Sort the layers by distance, by insertion into the order of the previous column, because
+    // Sort the layers by distance. Insert them into the order of the previous column, because
     // neighboring columns have almost the same order.
     const auto nearer = [&](std::size_t a, std::size_t b) {
         const float arc_a = layers[a].columns->squared_arcs_m2[column];
@@ -337,8 +339,8 @@ const MergedBrick<Code>& BrickMerger<Code>::merge(std::span<const BrickLayer> la
     return merged_;
 }
 
-// Counts the sites that see each cell, sums their weights, and stores both as codes. A sum is
-// clamped before it is rounded, so that it fits into its code.
+// Counts the sites that see each cell and sums their weights, and stores both as codes. Clamps a
+// sum before rounding it, so that it fits into its code.
 template <class Code>
 const MergedBrick<Code>& BrickMerger<Code>::count(std::span<const BrickLayer> layers,
                                                   const BrickExtent& extent) {

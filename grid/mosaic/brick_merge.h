@@ -1,11 +1,11 @@
-// grid/mosaic/brick_merge.h -- merges one brick of several sites, by the rules of
+// grid/mosaic/brick_merge.h -- merges one brick of several sites by the rules of
 // stormcellar/grid/mosaic.h.
 //
 // The merger goes through the brick column by column. The 16 codes of a column are contiguous, so
-// every step is a loop over 16 numbers that the compiler turns into vector instructions. The
-// weights of a site depend on the column alone.
+// each step is a loop over 16 numbers, which the compiler turns into vector instructions. The
+// weight of a site is the same for all cells of a column.
 //
-// Threads   A BrickMerger may be used by one thread at a time.
+// Threads   One thread at a time may use a BrickMerger.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct LayerColumns {
     ColumnValues squared_arcs_m2{};
 };
 
-// The brick of one site at the position of the merged brick.
+// The brick of one site that covers the same cells as the merged brick.
 struct BrickLayer {
     const BrickView* view = nullptr;
     std::size_t brick = 0;  // number of the brick in `view`
@@ -39,7 +39,7 @@ struct BrickLayer {
 template <class Code>
 struct LayerCodes {
     const Code* first = nullptr;
-    std::size_t stride = brick_edge;  // 0: all columns are equal
+    std::size_t stride = brick_edge;  // distance between columns; 0: all columns are equal
     [[nodiscard]] const Code* column(std::size_t at) const { return first + at * stride; }
 };
 
@@ -60,36 +60,37 @@ class BrickMerger {
   public:
     BrickMerger(const MosaicOptions& options, const Quantization& quantization);
 
-    // Merges the layers, which are summed in the given order. No layer may be uniformly not seen.
-    // `levels_m` are the levels of the brick. The result is valid until the next call.
+    // Merges the layers. They are summed in the given order. A layer whose brick is all not seen
+    // must be left out. `levels_m` are the levels of the brick. The result is valid until the next
+    // call.
     const MergedBrick<Code>& merge(std::span<const BrickLayer> layers, const BrickExtent& extent,
                                    std::span<const double> levels_m);
     // Computes only the counts and the weights.
     const MergedBrick<Code>& count(std::span<const BrickLayer> layers, const BrickExtent& extent);
 
-    // Returns how many means so far were below the least code.
+    // Returns how many means so far were below the smallest code.
     [[nodiscard]] std::uint64_t clamped_count() const { return clamped_; }
 
   private:
-    // Sums are exact enough in floats for 1-byte codes, and in doubles for 2-byte codes.
+    // Floats are exact enough to sum 1-byte codes, and doubles to sum 2-byte codes.
     using Real = std::conditional_t<sizeof(Code) == 1, float, double>;
-    // an integer of that size
+    // An integer of the size of Real.
     using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;
 
-    // A layer's detection limit, which replaces its "no echo" in a mean. As Z, the limit is scale *
+    // A layer's detection limit, which stands for its "no echo" in a mean. As Z, it is scale *
     // (arc^2 + (height - altitude)^2).
     struct Limit {
         Real scale = 0;
         std::array<Real, brick_edge> squared_heights_m2{};
     };
 
-    // The sums of the lowest `size` cells of a column.
+    // The sums for the lowest `size` cells of a column.
     template <std::size_t size>
     struct Sums {
         std::array<Real, size> value{}, no_echo{}, folded{};  // sums of weights
         std::array<Real, size> sum{};                         // sum of weight times value
     };
-    // A layer that sees something in a column.
+    // A layer that sees something in the present column.
     struct Active {
         std::size_t layer;
         unsigned states;
@@ -115,14 +116,14 @@ class BrickMerger {
     const MosaicOptions options_;
     const Quantization quantization_;
     bool in_z_, with_limits_;
-    Real code_per_log2_, code_base_;  // convert log2 of Z to a code
-    std::vector<Real> linear_;        // by code: Z; empty if codes are averaged
+    Real code_per_log2_, code_base_;  // turn log2 of Z into a code
+    std::vector<Real> linear_;        // Z by code; empty if codes are averaged
     std::vector<LayerCodes<Code>> codes_;
     std::vector<Limit> limits_;
     std::vector<std::vector<Code>> unpacked_;
     std::vector<std::size_t> order_;  // nearest first
-    std::vector<Active> active_;      // the active layers of the current column
-    unsigned states_ = 0;             // the states of all active layers together
+    std::vector<Active> active_;      // layers that see something in the present column
+    unsigned states_ = 0;             // the states of all active layers
     MergedBrick<Code> merged_;
     std::uint64_t clamped_ = 0;
 };

@@ -6,7 +6,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// The columns of one brick from above: 0 not seen, 1 seen without echo, else the greatest code.
+// The columns of one brick seen from above: 0 for not seen, 1 for seen without echo, else the
+// greatest code.
 using BrickTop = std::array<std::uint16_t, static_cast<std::size_t>(brick_edge) * brick_edge>;
 
 void add_stored(const BrickView& view, std::size_t brick, int first_level, BrickTop& top) {
@@ -56,7 +57,8 @@ int lowest_level_of(const GridSpec& spec, double lowest_m) {
     return first == spec.levels_m.end() ? 0 : static_cast<int>(first - spec.levels_m.begin());
 }
 
-// Divides the sum in each pixel by its number of seen columns, and decides which pixels are seen.
+// Divides the sum in each pixel by the number of its seen columns, and decides whether the pixel is
+// seen.
 void divide(EchoImage& image, const std::vector<std::uint32_t>& columns,
             const std::vector<std::uint32_t>& seen) {
     for (std::size_t at = 0; at < image.seen.size(); ++at) {

@@ -1,10 +1,9 @@
-// grid/mosaic/echo_image.h -- makes a coarse image of a grid seen from above, for estimating
-// motion.
+// grid/mosaic/echo_image.h -- makes a coarse image of a grid seen from above, to estimate motion.
 //
-// A pixel is the mean of the maxima of its seen columns, in decibels above `floor_dbz`; a column
-// below the floor, or without echo, counts as 0. A pixel is seen if at least half of its columns
-// are seen at any level that counts. Levels below `lowest_m` do not count if the grid has higher
-// levels, because echo near the ground may be clutter, which does not move.
+// A pixel is the mean over its seen columns. Each column counts with its maximum, in decibels above
+// `floor_dbz`; below the floor, or without echo, it counts as 0. A pixel is seen if at least half
+// of its columns are seen at any level that counts. Levels below `lowest_m` do not count if the
+// grid has higher levels, because echo near the ground may be clutter, which does not move.
 //
 // Threads   Plain values.
 #pragma once
@@ -18,7 +17,7 @@ namespace stormcellar::grid {
 
 struct EchoImage {
     int width = 0, height = 0;       // west to east, south to north
-    int cells = 1;                   // columns along each side of a pixel
+    int cells = 1;                   // number of columns along each side of a pixel
     std::vector<float> echo_db;      // above the floor; row by row
     std::vector<std::uint8_t> seen;  // 1 or 0
 
@@ -35,8 +34,8 @@ struct EchoImageOptions {
 };
 [[nodiscard]] EchoImage echo_image(const BrickView& view, const EchoImageOptions& options);
 
-// Returns an image with one pixel for each four: the mean of the seen pixels among them. The new
-// pixel is seen if at least half of them are seen.
+// Returns an image with one pixel for each four: the mean of those of the four that are seen. The
+// new pixel is seen if at least half of them are seen.
 [[nodiscard]] EchoImage halved(const EchoImage& image);
 
 }  // namespace stormcellar::grid

@@ -14,7 +14,7 @@ struct Correlation {
 
 Correlation correlate(const EchoImage& before, const EchoImage& after, const PixelBox& box, int dx,
                       int dy) {
-    // The operator >> rounds toward minus infinity. The other half, dx - back_x, gets the rest.
+    // The operator >> rounds toward minus infinity. The other image moves by the rest, dx - back_x.
     const int back_x = dx >> 1, back_y = dy >> 1;
     double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
     std::size_t echoes = 0;
@@ -44,8 +44,8 @@ Correlation correlate(const EchoImage& before, const EchoImage& after, const Pix
     return {(n * sum_ab - sum_a * sum_b) / std::sqrt(spread_a * spread_b), echoes};
 }
 
-// Returns the top of the parabola through three values at -1, 0 and 1, of which the middle one is
-// the greatest.
+// Returns the place of the top of a parabola. It goes through three values, at -1, 0 and 1; the
+// middle one is the greatest.
 double top_of_parabola(double before, double middle, double after) {
     const double curvature = before - 2 * middle + after;
     if (!(curvature < 0)) return 0;
@@ -65,8 +65,8 @@ class Search {
         }
     }
 
-    // Returns the best shift. If several are equally good, returns the shortest of them, because an
-    // image that does not change has not moved.
+    // Returns the best shift. If several are equally good, returns the shortest, because an image
+    // that does not change has not moved.
     [[nodiscard]] std::optional<Shift> best() const {
         std::optional<Shift> best;
         for (int dy = -search_.reach_y; dy <= search_.reach_y; ++dy) {

@@ -18,16 +18,16 @@ struct PixelBox {
 };
 
 struct Shift {
-    double x = 0, y = 0;     // in pixels, from `before` to `after`
+    double x = 0, y = 0;     // shift in pixels, from `before` to `after`
     double correlation = 0;  // at the best shift
-    std::size_t pixels = 0;  // pixels with echo in at least one image
+    std::size_t pixels = 0;  // number of pixels with echo in at least one image
 };
 
-// best_shift() searches shifts within +-reach_x and +-reach_y of (around_x, around_y). Each image
-// is moved by half of the shift, in opposite directions, so that the motion belongs to the box at
-// the middle time. The correlation covers the pixels that both images have seen. A parabola through
-// the best shift and its neighbors yields the fraction of a pixel. The result is none if no shift
-// leaves echo in both images.
+// best_shift() tries shifts within +-reach_x and +-reach_y of (around_x, around_y). It moves each
+// image by half of the shift, in opposite directions, so that the motion belongs to the box at the
+// middle time. The correlation covers the pixels that both images have seen. A parabola through the
+// best shift and its neighbors gives the fraction of a pixel. The result is none if no shift leaves
+// echo in both images.
 struct ShiftSearch {
     int around_x = 0, around_y = 0;
     int reach_x = 0, reach_y = 0;

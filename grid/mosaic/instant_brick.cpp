@@ -20,7 +20,7 @@ std::size_t cell_in_brick(int x, int y, int z) {
     return static_cast<std::size_t>(cell);
 }
 
-// Returns the nearest code. A value beyond the range of codes is clamped to its end.
+// Returns the nearest code. Clamps a value beyond the range of codes to the end of the range.
 std::uint16_t clamped_code(float value, const Quantization& quantization) {
     const double code = nearest_code(value, quantization);
     return static_cast<std::uint16_t>(std::clamp(code,
@@ -28,8 +28,8 @@ std::uint16_t clamped_code(float value, const Quantization& quantization) {
                                                  static_cast<double>(quantization.largest_code())));
 }
 
-// Returns the status of two ends without values: their common status, or the status of the only end
-// that sees; none if they differ.
+// Returns the status of a cell if neither end has a value: the status that both have, or the status
+// of the only end that sees the cell. Returns none if the two see different statuses.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;
@@ -83,7 +83,7 @@ InstantBrick::InstantBrick(const InstantMaker& maker, int bx, int by)
         read_times(end);
 }
 
-// Computes the time of each cell of one end, for the columns of the brick at all heights.
+// Computes the time of each cell of one end, for the columns of the brick and all heights.
 void InstantBrick::read_times(std::size_t end) {
     const InstantMaker::End& from = maker_.ends_[end];
     if (!from.clock) return;
@@ -130,8 +130,8 @@ void InstantBrick::find_box(std::size_t end) {
     if (source.is_still) return;
     float west = static_cast<float>(x1), east = static_cast<float>(x0);
     float south = static_cast<float>(y1), north = static_cast<float>(y0);
-    // At all heights, a column moves by its motion times the seconds of the cell. So the extremes
-    // over the brick are at the earliest and the latest time of its cells.
+    // A column moves by its motion times the seconds of a cell, at all heights. So it moves
+    // farthest, either way, at the earliest and the latest time of the brick's cells.
     const auto [early, late] = std::minmax_element(source.seconds.begin(), source.seconds.end());
     for (const float seconds : {*early, *late}) {
         for (int x = x0; x <= x1; ++x) {
@@ -147,8 +147,8 @@ void InstantBrick::find_box(std::size_t end) {
             }
         }
     }
-    // If echo would come from a wider box than this, use one time for the whole volume. Without the
-    // bound, a frame could take minutes.
+    // If echo would come from a wider box than this, use one time for the whole volume. Without
+    // this limit, a frame could take minutes.
     constexpr float most_columns = 256;
     const bool is_too_wide = east - west > most_columns || north - south > most_columns;
     if (is_too_wide && *early != *late) {
@@ -166,7 +166,7 @@ Sample InstantBrick::sample_of(std::uint16_t code) const {
     return {CellStatus::value, quantization.value_of(code), 0, 0};
 }
 
-// Adds the detection limit to a sample without echo, for mixing it with echo.
+// Adds the detection limit to a sample without echo, so that it can be mixed with echo.
 Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     const bool counts =
         sample.status == CellStatus::no_echo && maker_.blending_ == Blending::with_detection_limit;
@@ -182,13 +182,13 @@ Sample InstantBrick::with_limit(Sample sample, std::size_t cell) {
     return sample;
 }
 
-// Mixes four columns around a place.
+// Mixes the four columns around a place.
 Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t cell) {
     const std::size_t z = cell % brick_edge;
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const auto code = [&](int ix, int iy) { return source.codes.column(ix, iy)[z]; };
-    // If values wrap, the nearest column counts alone.
+    // For values that wrap, only the nearest column counts.
     if (is_circular(maker_.blending_)) {
         return sample_of(code(x0 + (fx >= 0.5F ? 1 : 0), y0 + (fy >= 0.5F ? 1 : 0)));
     }
@@ -207,7 +207,8 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     return {mixed.status, mixed.value, 0, 0};
 }
 
-// Returns one end's sample for a cell: the cell itself, or the place from which its echo moved.
+// Returns the sample of one end for a cell: the cell itself, or the place from which its echo moved
+// to the cell.
 Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     const Source& source = sources_[end];
     const std::size_t column = cell / brick_edge;
@@ -220,8 +221,8 @@ Sample InstantBrick::sample(std::size_t end, std::size_t cell) {
     return mix(source, x, y, cell);
 }
 
-// Returns the weight of the later end at the instant, linear between the times of the two ends,
-// which are relative to the instant.
+// Returns the weight that the later end has at the instant. The weight is linear between the times
+// of the two ends, which are counted from the instant.
 float InstantBrick::weight_of_after(std::size_t cell) const {
     const float before = sources_[0].seconds[cell], after = sources_[1].seconds[cell];
     if (!(after > before)) return 0.5F;
@@ -252,8 +253,8 @@ void InstantBrick::write(int bz, BricksWriter& writer) {
     writer.put_codes(index, bytes.data(), extent);
 }
 
-// Makes the codes of the brick at height `bz`. If all cells that may contribute have one state at
-// each end, returns the state of the brick without reading a cell.
+// Makes the codes of the brick at height `bz`. If the cells that may contribute have a single state
+// at each end, returns the state of the brick without reading a cell.
 std::optional<CellStatus> InstantBrick::make(int bz) {
     bz_ = bz;
     const std::size_t ends = maker_.ends_.size();
@@ -276,8 +277,8 @@ std::optional<CellStatus> InstantBrick::make(int bz) {
     return std::nullopt;
 }
 
-// Mixes the two ends cell by cell. No mixing is needed if both ends have the same state, or if one
-// end has not seen the cell.
+// Mixes the two ends cell by cell. Does not mix if both ends have the same state, or if one end has
+// not seen the cell.
 void InstantBrick::fill() {
     codes_.fill(0);
     limits_.fill(std::numeric_limits<float>::quiet_NaN());

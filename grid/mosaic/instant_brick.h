@@ -1,9 +1,9 @@
 // grid/mosaic/instant_brick.h -- makes one brick of a grid for an instant between two volumes.
 //
-// Only code inside grid/ uses this; grid/mosaic/time_interpolation.h defines the result.
+// Only code inside grid/ uses this. grid/mosaic/time_interpolation.h defines the result.
 //
-// Threads   An InstantMaker is immutable and shared; an InstantBrick may be used by one thread at a
-//           time.
+// Threads   An InstantMaker is immutable, and threads share it. One thread at a time may use an
+//           InstantBrick.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace stormcellar::grid {
 
-// The data that all bricks share; an End is one of the volumes.
+// The data that all bricks share. An End is one of the two volumes.
 class InstantMaker {
   public:
     InstantMaker(const TimedView& before, const std::optional<TimedView>& after,
@@ -29,13 +29,13 @@ class InstantMaker {
     friend class InstantBrick;
     struct End {
         TimedView timed;
-        double middle_s = 0;  // relative to the instant: negative before the instant
+        double middle_s = 0;  // middle of the volume relative to the instant; negative if earlier
         std::optional<SweepClock> clock;
     };
     static End end_of(const TimedView& timed, const ColumnGeometry& geometry,
                       const InstantOptions& options);
 
-    std::vector<End> ends_;  // one or two, in order of time
+    std::vector<End> ends_;  // one or two volumes, in order of time
     const ColumnGeometry* geometry_;
     InstantOptions options_;
     Blending blending_;
@@ -47,24 +47,24 @@ class InstantBrick {
   public:
     InstantBrick(const InstantMaker& maker, int bx, int by);
 
-    // Writes the brick at height `bz` (in bricks).
+    // Writes the brick at height `bz` (counted in bricks).
     void write(int bz, BricksWriter& writer);
 
   private:
     static constexpr std::size_t columns = static_cast<std::size_t>(brick_edge) * brick_edge;
-    // An end's data for the bricks at one height.
+    // The data of one end for the bricks at one height.
     struct Source {
         CodeBlock codes;
-        // If the volume has a clock: the time of each cell relative to the instant, for all heights
-        // of the columns.
+        // The time of each cell relative to the instant, for all heights of the columns. Empty if
+        // the volume has no clock.
         std::vector<float> column_seconds;
         std::array<float, brick_cells> seconds;
         ColumnBox box;
         bool is_still = true;  // no column has moved
     };
 
-    // Returns the common status of all cells if it is known without reading a cell; else fills
-    // codes_.
+    // Returns the status of all cells if they have the same one and it is known without reading a
+    // cell. Otherwise fills codes_.
     std::optional<CellStatus> make(int bz);
     void read_times(std::size_t end);
     void take_times(std::size_t end, int bz);

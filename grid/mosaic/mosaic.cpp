@@ -77,7 +77,7 @@ std::vector<bool> changed_columns(const BrickView& shape, std::span<const GridWi
     return changed;
 }
 
-// Removes sites whose windows touch no changed bricks.
+// Removes sites whose windows touch no changed brick.
 void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
                     std::vector<PlacedSite>& sites) {
     std::erase_if(sites, [&](const PlacedSite& site) {
@@ -96,7 +96,8 @@ void drop_untouched(const BrickView& shape, const std::vector<bool>& changed,
     });
 }
 
-// The input of an update: the changed columns of bricks, and the sites whose windows touch them.
+// The input of an update: the columns of bricks that changed, and the sites whose windows touch
+// them.
 struct ChangedPart {
     std::vector<bool> columns;
     std::vector<PlacedSite> sites;

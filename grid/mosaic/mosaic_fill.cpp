@@ -15,7 +15,7 @@ namespace {
 
 constexpr float least_power = -99.6578428F;  // 1e-30
 
-// Fills all bricks with one bx, in one thread.
+// Fills all bricks that have the same bx, in one thread.
 template <class Code>
 class Slab {
   public:
@@ -57,8 +57,8 @@ class Slab {
         }
     }
 
-    // Merges all bricks of a column of bricks. Only sites whose windows cover this column matter,
-    // and their distances are computed once for all its bricks.
+    // Merges all bricks in a column of bricks. Only sites whose windows cover the column matter,
+    // and their distances are computed once for all of its bricks.
     void merge_column(int by) {
         here_.clear();
         for (const PlacedSite& site : work_.sites) {
@@ -71,8 +71,8 @@ class Slab {
             merge_brick(by, bz);
     }
 
-    // Merges one brick, without sites that see nothing in it. If no site sees anything, the brick
-    // stays not seen.
+    // Merges one brick. Leaves out sites that see nothing in it. If no site sees anything, the
+    // brick stays not seen.
     void merge_brick(int by, int bz) {
         layers_.clear();
         layer_sites_.clear();
@@ -104,9 +104,9 @@ class Slab {
         if (weights_) weights_->put_codes(to, counted.weights.data(), extent);
     }
 
-    // Merges a brick if the overlap rule and the weights do not matter: only one site sees the
-    // brick, or no site has values or range folded in it. In the latter case, a cell is no echo if
-    // any site sees no echo there. Returns false for other bricks.
+    // Merges a brick if the overlap rule and the weights do not matter. That is so if only one site
+    // sees the brick, or if no site has a value or range folded in it. In the second case, a cell
+    // is no echo if any site sees no echo there. Returns false for other bricks.
     bool merge_by_rule_of_thumb(std::size_t to, const BrickExtent& extent) {
         if (layers_.size() == 1) {
             cells_.copy(to, *layers_[0].view, layers_[0].brick);
@@ -114,7 +114,7 @@ class Slab {
         }
         bool any_stored = false;
         bool any_folded = false;
-        bool all_no_echo = false;  // true if one site sees no echo everywhere
+        bool all_no_echo = false;  // one site sees no echo in all cells
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
             const bool uniform = entry.kind == BrickKind::uniform;
@@ -123,8 +123,8 @@ class Slab {
             all_no_echo |= uniform && entry.uniform_status == CellStatus::no_echo;
         }
         if (any_stored || any_folded) return false;
-        // All cells have states only. A state has two bits; without range folded, the "or" over the
-        // sites is no echo if any site sees no echo, else not seen.
+        // No cell has a value. A state has two bits. Without range folded, the "or" over the sites
+        // is no echo if any site sees no echo, else not seen.
         std::array<std::byte, state_block_bytes> any{};
         for (const BrickLayer& layer : layers_) {
             const BrickEntry& entry = layer.view->bricks[layer.brick];
@@ -146,7 +146,7 @@ class Slab {
         return true;
     }
 
-    // Computes the layers' distances and weights, once for all bricks of the column.
+    // Computes distances and weights of the layers, once for all bricks of the column.
     void measure(int by) {
         const bool by_distance = work_.options.overlap == Overlap::distance_weighted;
         const auto log2_per_m2 = static_cast<float>(
@@ -177,13 +177,13 @@ class Slab {
     std::optional<BricksWriter> counts_, weights_;
     BrickMerger<Code> merger_;
     std::vector<const PlacedSite*> here_;
-    std::vector<LayerColumns> columns_;  // for the sites of this column of bricks
+    std::vector<LayerColumns> columns_;  // for the sites that cover this column of bricks
     std::vector<bool> is_measured_;
     std::vector<BrickLayer> layers_;
     std::vector<std::size_t> layer_sites_;  // indices into columns_
 };
 
-// Collects the writers that `pick` selects from each slab, in the order of the bricks.
+// Collects the writers that `pick` selects from each slab, in the order of bricks.
 template <class Code, class Pick>
 std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& slabs, Pick pick) {
     std::vector<BricksWriter> writers;
@@ -193,7 +193,7 @@ std::vector<BricksWriter> writers_of(std::vector<std::optional<Slab<Code>>>& sla
     return writers;
 }
 
-// Calls finish(grid, writers) for each grid of the mosaic, with the writers of its bricks.
+// Calls finish(grid, writers) for each grid of the mosaic. `writers` are the writers of its bricks.
 template <class Code, class Finish>
 void fill(const MosaicWork& work, Finish finish) {
     const int count = work.made.cells.view().bricks_x;

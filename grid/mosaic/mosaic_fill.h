@@ -1,7 +1,7 @@
 // grid/mosaic/mosaic_fill.h -- fills the bricks of a mosaic.
 //
-// Threads   The threads divide the columns of bricks among themselves. The result has the same bits
-//           for any number of threads.
+// Threads   The threads share the columns of bricks. The result has the same bits for any number of
+//           threads.
 #pragma once
 
 #include <span>
@@ -17,14 +17,14 @@ struct MosaicWork {
     const GridSpec& domain;
     const MosaicOptions& options;
     std::span<const PlacedSite> sites;
-    const MosaicView* previous = nullptr;  // source of bricks that did not change
-    std::vector<bool> changed = {};        // for each column of bricks; empty: all changed
+    const MosaicView* previous = nullptr;  // has the bricks that did not change
+    std::vector<bool> changed = {};        // for each column of bricks; empty: all have changed
     Mosaic& made;
 };
 
-// Fills a mosaic in which no cell is seen yet.
+// Fills a mosaic. No cell of it may be seen yet.
 void fill_mosaic(const MosaicWork& work);
-// Fills the changed columns of a mosaic anew, and no others. `previous` must be null.
+// Fills the changed columns of bricks anew, and no others. `previous` must be null.
 void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

@@ -1,5 +1,5 @@
-// grid/mosaic/mosaic_sites.h -- checks the partials of a mosaic and sorts them into the order of
-// summation.
+// grid/mosaic/mosaic_sites.h -- checks the partials of a mosaic (grids of single sites) and sorts
+// them into the order in which they are summed.
 //
 // Threads   Plain values and functions.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace stormcellar::grid {
 
-// A partial and its position in the domain.
+// A partial, and its position in the domain.
 struct PlacedSite {
     const Partial* partial = nullptr;
     GridWindow window;
@@ -35,12 +35,13 @@ struct PlacedSite {
 
 [[nodiscard]] bool has_shape_of(const BrickView& view, const GridSpec& spec);
 
-// Returns the checked partials, sorted by ICAO, then position. Errors: bad_argument, as in merge().
+// Checks the partials and returns them sorted by ICAO, then position. Errors: bad_argument, as in
+// merge().
 [[nodiscard]] Result<std::vector<PlacedSite>> place_sites(const GridSpec& domain,
                                                           std::span<const Partial> partials,
                                                           const Quantization& quantization);
 
-// Computes the distances of sites that have none.
+// Computes the distances for sites that lack them.
 void measure_distances(const GridSpec& domain, int threads, std::vector<PlacedSite>& sites);
 
 }  // namespace stormcellar::grid

@@ -11,11 +11,12 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t fewest_pixels = 200;  // pixels of 4 km, to know the motion of the whole image
+// Pixels of 4 km; with fewer, the motion of the whole is unknown.
+constexpr std::size_t fewest_pixels = 200;
 constexpr std::size_t fewest_in_block = 40;
 constexpr double worthless_correlation = 0.3;
 
-// The motion of a block or of the whole image, with its weight.
+// The motion of a block or of the whole image. Its weight says how much it counts.
 struct Vote {
     double x = 0, y = 0;  // pixels
     double weight = 0;
@@ -26,8 +27,8 @@ int reach_of(double speed_mps, double seconds, double pixel_m) {
 }
 
 struct Images {
-    EchoImage before, after;                // with pixels of pixel_m
-    EchoImage coarse_before, coarse_after;  // with pixels twice as large
+    EchoImage before, after;                // their pixels are pixel_m wide
+    EchoImage coarse_before, coarse_after;  // their pixels are twice as wide
     double pixel_width_m = 0, pixel_height_m = 0;
 };
 
@@ -61,10 +62,11 @@ std::optional<Vote> motion_of_whole(const Images& images, double seconds,
     return Vote{2 * shift->x, 2 * shift->y, 1};
 }
 
-// Blocks overlap by half. Their middles are the nodes of the motion field.
+// The blocks of an image. They overlap by half, and their middles are the nodes of the motion
+// field.
 struct Blocks {
     int width = 0, height = 0;
-    int step = 0;  // pixels from one middle to the next; blocks are twice as wide
+    int step = 0;  // pixels from one middle to the next, half the width of a block
 
     [[nodiscard]] std::size_t index(int column, int row) const {
         const int before = row * width + column;
@@ -94,8 +96,9 @@ Vote vote_of_block(const Images& images, const Blocks& blocks, int column, int r
     return {shift->x, shift->y, worth * worth * std::sqrt(static_cast<double>(shift->pixels))};
 }
 
-// Returns the mean of the votes of the blocks around a node, weighted by a Gaussian of one step.
-// The motion of the whole image has a small weight, so it matters only where no block has a vote.
+// Returns the mean of the votes of the blocks around a node, weighted by a Gaussian with a width of
+// one step. The motion of the whole image has a small weight, so that it matters only where no
+// block has a vote.
 Vote smoothed(const std::vector<Vote>& votes, const Blocks& blocks, int column, int row,
               const Vote& whole) {
     constexpr double weight_of_whole = 0.02;
@@ -173,7 +176,8 @@ Result<std::optional<MotionField>> estimate_motion(const BrickView& before, cons
                            1 + reach_of(options.block_differs_mps, seconds, images.pixel_height_m)};
     const std::vector<Vote> votes = votes_of(images, blocks, near, options.threads);
     const int cells = images.before.cells;
-    // The search covers whole pixels, so it may find motions faster than the options allow.
+    // The search covers whole pixels, so it may find motions that are faster than the options
+    // allow.
     const double fastest_mps = options.greatest_mps + options.block_differs_mps;
     const auto columns_per_s = [&](double pixels, double pixel_m) {
         const double most = fastest_mps * cells / pixel_m;

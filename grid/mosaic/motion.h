@@ -1,11 +1,11 @@
 // grid/mosaic/motion.h -- estimates how echo moved from one grid to a later one.
 //
 // Model     Echo moves in the plane of the grid, with the same motion at all heights; it may grow
-//           and decay. The estimate is the motion with which the column-maximum images of both
-//           grids (grid/mosaic/echo_image.h) correlate best: first for the whole image, then for
-//           overlapping blocks, near the motion of the whole image. Each block counts by its
-//           correlation. The field of motions is smoothed. Where there is no echo, the motion of
-//           the whole image counts.
+//           and decay. From both grids, images of the maximum of each column are made
+//           (grid/mosaic/echo_image.h). The estimate is the motion with which they correlate best:
+//           first for the whole image, then for overlapping blocks, near the motion of the whole
+//           image. Each block counts by its correlation. The field of motions is smoothed. Where
+//           there is no echo, the motion of the whole image counts.
 // Units     Columns of the grid per second, east (x) and north (y), so that a grid in degrees needs
 //           no conversion. Multiply by GridSpec::cell_width_m() and cell_height_m() for m/s.
 // Accuracy  1.5 m/s for a pattern that moves rigidly, with pixels of 2 km and 300 s (enforced by
@@ -32,21 +32,21 @@ struct CellMotion {
     bool operator==(const CellMotion&) const = default;
 };
 
-// A field of motions: bilinear between the nodes of a lattice over the columns of a grid, and
-// constant beyond the lattice.
+// A field of motions. It has nodes on a lattice over the columns of a grid. It is bilinear between
+// the nodes, and constant beyond the lattice.
 class MotionField {
   public:
     // Makes a field with the same motion everywhere.
     explicit MotionField(CellMotion motion);
-    // Makes a field with nodes every `step` columns, row by row; the first is over column 0 of row
-    // 0. `whole` is the motion of all echo together.
+    // Makes a field with a node every `step` columns, row by row. The first node is at column 0 of
+    // row 0. `whole` is the motion of all echo together.
     MotionField(int width, int height, double step, std::vector<CellMotion> nodes,
                 CellMotion whole);
 
     [[nodiscard]] CellMotion at(double ix, double iy) const;
     [[nodiscard]] CellMotion whole() const { return whole_; }
-    // Returns the greatest magnitude of x and of y over all nodes. No motion exceeds it on either
-    // axis.
+    // Returns the greatest magnitude of x over all nodes, and that of y. No motion is faster along
+    // either axis.
     [[nodiscard]] CellMotion greatest() const { return greatest_; }
 
   private:
@@ -57,16 +57,17 @@ class MotionField {
 };
 
 struct MotionOptions {
-    double greatest_mps = 50;       // faster motions are not considered
-    double pixel_m = 2000;          // size of pixels, as nearly as columns allow
-    double block_m = 64'000;        // size of the parts of the image that have their own motion
-    double block_differs_mps = 15;  // a block differs from the whole by at most this much
+    double greatest_mps = 50;  // faster motions are not considered
+    double pixel_m = 2000;     // size of pixels, as nearly as columns allow
+    // Size of the blocks of the image that have a motion of their own.
+    double block_m = 64'000;
+    double block_differs_mps = 15;  // a block may differ from the whole by this much at most
     int threads = 1;
 };
 
-// Estimates the motion. Returns none if there is too little echo (less than 200 pixels of 4 km) to
-// know it. Errors: bad_argument for views with different specs, or `seconds` that are not positive.
-// The moment must be in dBZ; this is not checked.
+// Estimates the motion. Returns none if there is too little echo for that (less than 200 pixels of
+// 4 km). The moment must be in dBZ, which is not checked. Errors: bad_argument for views with
+// different specs, or if `seconds` is not positive.
 [[nodiscard]] Result<std::optional<MotionField>> estimate_motion(const BrickView& before,
                                                                  const BrickView& after,
                                                                  double seconds,

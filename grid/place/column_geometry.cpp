@@ -13,7 +13,7 @@ namespace {
 
 ColumnPlace narrow(PolarPoint point) {
     auto azimuth_deg = static_cast<float>(point.azimuth_deg);
-    if (azimuth_deg >= 360) azimuth_deg = 0;  // 359.99999 may round to 360 as a float
+    if (azimuth_deg >= 360) azimuth_deg = 0;  // as a float, 359.99999 may round to 360
     return {azimuth_deg, static_cast<float>(point.arc_m)};
 }
 

@@ -20,7 +20,8 @@ Vector place_of(const ColumnGeometry& geometry, int ix, int iy) {
     return {arc_m * std::sin(azimuth), arc_m * std::cos(azimuth)};
 }
 
-// Returns the step from a column to the next, or at the edge of the spec, from the previous column.
+// Returns the step from a column to the next. At the edge of the spec, returns the step from the
+// previous column.
 Vector step(const ColumnGeometry& geometry, int ix, int iy, int dx, int dy) {
     const GridSpec& spec = geometry.spec();
     const int from_x = std::max(0, ix - dx);
@@ -47,13 +48,13 @@ Footprint footprint_of(const ColumnGeometry& geometry, int ix, int iy) {
     const ColumnPlace& at = geometry.row(iy)[static_cast<std::size_t>(ix)];
     const double sine = std::sin(static_cast<double>(at.azimuth_deg) * degree);
     const double cosine = std::cos(static_cast<double>(at.azimuth_deg) * degree);
-    // u and v are the rows of the inverse of the matrix with columns x and y, in east and north.
+    // u and v are the rows of the inverse of a matrix. Its columns are x and y, in east and north.
     const double area_m2 = x.east_m * y.north_m - x.north_m * y.east_m;
     const double u_east = y.north_m / area_m2;
     const double u_north = -y.east_m / area_m2;
     const double v_east = -x.north_m / area_m2;
     const double v_north = x.east_m / area_m2;
-    // Turn u and v from east and north to along (sine, cosine) and across (cosine, -sine).
+    // Turn u and v from east and north into along (sine, cosine) and across (cosine, -sine).
     Footprint footprint;
     footprint.azimuth_deg = at.azimuth_deg;
     footprint.arc_m = at.arc_m;

@@ -18,7 +18,7 @@ constexpr double geodesic_error_m = 1e-6;
 constexpr double half_meridian_m = 20003931.5;  // of WGS84; no two points are farther apart
 constexpr double quarter_meridian_m = 10001965.7;
 
-// The share by which a length on the sphere exceeds the length on the ellipsoid, along the meridian
+// The shares by which a length on the sphere is greater than on the ellipsoid, along the meridian
 // and along the parallel.
 struct ScaleError {
     double north = 0;
@@ -33,8 +33,8 @@ ScaleError scale_error(double latitude_deg) {
             SphereFrame::radius_m / prime_vertical_m - 1};
 }
 
-// Returns the largest error in scale in any direction between two latitudes. Both errors fall from
-// the equator to the poles, so their extremes are at the two ends.
+// Returns the largest error of scale, in any direction, between two latitudes. Both errors fall
+// from the equator to the poles, so they are extreme at the two ends.
 double largest_scale_error(double latitude_deg, double width_deg) {
     const double middle_deg = std::abs(latitude_deg);
     const ScaleError low = scale_error(std::max(0.0, middle_deg - width_deg));
@@ -43,7 +43,8 @@ double largest_scale_error(double latitude_deg, double width_deg) {
         {std::abs(low.north), std::abs(low.east), std::abs(high.north), std::abs(high.east)});
 }
 
-// Returns columns along the border of a grid with its corners, at most about 256 on each side.
+// Returns columns along the border of a grid, including its corners, at most about 256 on each
+// side.
 std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     std::vector<ColumnPoint> border;
     const auto along = [](int count, auto add) {
@@ -58,7 +59,8 @@ std::vector<ColumnPoint> border_of(const GridSpec& spec) {
     return border;
 }
 
-// Returns true if the grid holds the site's antipode, the only maximum of the arc inside a region.
+// Returns true if the grid holds the site's antipode. No other point inside a region can be a
+// maximum of the arc.
 bool holds_antipode(const SitePosition& site, const GridSpec& spec,
                     const GridProjection& projection) {
     const ColumnPoint at = projection.to_column({-site.latitude_deg, site.longitude_deg + 180});
@@ -100,24 +102,24 @@ double reach_m(const SitePosition& site, const GridSpec& spec) {
         last = point;
         first = false;
     }
-    // Every column of the border is at most half a gap from a column whose arc is computed. Add a
-    // tenth, because the border may be curved between computed columns.
+    // Every column of the border is at most half a gap from a column whose arc is computed. The
+    // extra tenth is for a border that is curved between these columns.
     return std::min(farthest_m + 0.55 * widest_gap_m, half_meridian_m);
 }
 
 double storage_error_bound_m(double reach_m) noexcept {
-    // Half a unit in the last place of a float, for an azimuth below 360 and for the arc.
+    // The error of rounding to a float, for an azimuth below 360 and for the arc.
     constexpr double azimuth_rad = 0x1p-16 * degree;
     const double arc_m = std::ldexp(1.0, std::ilogb(std::max(reach_m, 1e-30)) - 24);
     return std::hypot(reach_m * azimuth_rad, arc_m);
 }
 
-// Consider a step ds along a geodesic from the site. On the sphere, its image is stretched by (1 +
-// north) along the meridian and by (1 + east) along the parallel, both at the step's latitude. Only
-// these stretches turn the image away from a great circle, because latitude and azimuth change
-// alike on both. So the end of the image is off by at most the integral of the larger of the two
-// errors. In the equidistant plane, this distance is multiplied by theta / sin(theta), where theta
-// is the angle of the arc. The bound adds 1 % for products of errors.
+// Consider a step ds along a geodesic from the site. Its image on the sphere is stretched by (1 +
+// north) along the meridian and by (1 + east) along the parallel, both at the latitude of the step.
+// Nothing else turns the image away from a great circle, because latitude and azimuth change alike
+// on both. So the end of the image is off by at most the integral of the larger of the two errors.
+// In the equidistant plane, this distance is multiplied by theta / sin(theta), where theta is the
+// angle of the arc. The bound adds 1 % for products of errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
     // Two points of the disc are at most its width apart.

@@ -11,18 +11,19 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr std::size_t order = 6;  // nodes along each side
+constexpr std::size_t order = 6;  // number of nodes along each side
 constexpr int largest_side = 128;
-// blocks of so few columns are solved exactly: nodes and checks would cost as much
+// A block of at most this many columns is solved exactly, because nodes and checks would cost as
+// much.
 constexpr int fewest_columns = 128;
-constexpr double farthest_m = 15e6;  // closer to the antipode, directions diverge
+constexpr double farthest_m = 15e6;  // closer to the antipode, directions from the site diverge
 
 struct Block {
     int x, y, width, height;  // in columns
 };
 
-// node() returns Chebyshev's nodes, where T6 is 0; peak() returns the peaks of T6. Both are on a
-// side from -1 to 1.
+// node() returns the nodes of Chebyshev, where T6 is 0. peak() returns the peaks of T6. Both are
+// places on a side that goes from -1 to 1.
 double node(std::size_t i) {
     return std::cos((2.0 * static_cast<double>(i) + 1) * std::numbers::pi / (2 * order));
 }
@@ -30,7 +31,7 @@ double peak(std::size_t i) {
     return std::cos(static_cast<double>(i) * std::numbers::pi / order);
 }
 
-// The values at one place of the polynomials that are 1 at one node and 0 at the others.
+// The values, at one place, of the polynomials that are 1 at one node and 0 at all others.
 using Weights = std::array<double, order>;
 Weights weights_at(double t) {
     Weights weights;
@@ -43,7 +44,8 @@ Weights weights_at(double t) {
     return weights;
 }
 
-// Returns the weights at the centers of `count` columns, whose outer edges are at -1 and 1.
+// Returns the weights at the centers of `count` columns. The outer edges of the columns are at -1
+// and 1.
 std::vector<Weights> weights_of_columns(int count) {
     std::vector<Weights> weights;
     weights.reserve(static_cast<std::size_t>(count));
@@ -82,7 +84,7 @@ class TableFiller {
         ++geodesics_;
         return SiteFrame::to_plane(site_.to_polar(projection_.to_geo({x, y})));
     }
-    // In s and t, -1 and 1 are the outer edges of the block's columns.
+    // For s and t, -1 and 1 are the outer edges of the block's columns.
     PlanePoint solve_in(const Block& block, double s, double t) {
         return solve(block.x - 0.5 + 0.5 * block.width * (1 + s),
                      block.y - 0.5 + 0.5 * block.height * (1 + t));
@@ -97,7 +99,7 @@ class TableFiller {
         }
     }
 
-    // Returns false if a node is so far from the site that the plane is not smooth.
+    // Returns false if a node is so far from the site that the plane is not smooth there.
     bool solve_nodes(const Block& block) {
         for (std::size_t j = 0; j < order; ++j) {
             for (std::size_t i = 0; i < order; ++i) {
@@ -129,8 +131,8 @@ class TableFiller {
         return value;
     }
 
-    // At the peaks, the errors along x and along y occur with all pairs of signs, so they cannot
-    // cancel each other at all peaks.
+    // At the peaks, the errors along x and along y occur with all combinations of signs. So they
+    // cannot cancel at all peaks.
     bool holds(const Block& block) {
         for (std::size_t j = 0; j <= order; ++j) {
             const auto row = row_at(peak_weights_[j]);

@@ -14,7 +14,7 @@ constexpr double widest_deg = 350;
 
 SiteColumns::Way SiteColumns::way_for(const SitePosition& site, const GridSpec& spec) {
     if (spec.in_degrees()) {
-        // Columns are not smooth near a pole, where meridians meet, or across the seam of a grid
+        // Columns are not smooth near a pole, where meridians meet, nor across the seam of a grid
         // around the earth.
         const bool smooth = std::abs(site.latitude_deg) <= highest_latitude_deg &&
                             spec.nx * spec.spacing_deg < widest_deg;

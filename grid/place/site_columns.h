@@ -1,9 +1,10 @@
-// grid/place/site_columns.h -- finds the columns of a grid for places around a site, such as gates.
+// grid/place/site_columns.h -- finds the column of a grid at which a place is. The place, such as a
+// gate, is given as seen from a site.
 //
 // This is the inverse of stormcellar/grid/column_geometry.h, for many places at once. Columns are
-// smooth in the plane about the site (arc times sine and cosine of the azimuth), so a table holds
-// them every 25 km, and is linear in between. For a grid in the azimuthal equidistant projection
-// about the site itself, a formula replaces the table.
+// smooth in the plane about the site (arc times sine and cosine of the azimuth). So a table holds
+// the column at every 25 km of that plane, and is linear in between. For a grid in the azimuthal
+// equidistant projection about the site itself, a formula replaces the table.
 //
 // Units     Meters; azimuths are passed as sine and cosine; columns are counted as in
 //           GridProjection.
@@ -26,7 +27,7 @@ class SiteColumns {
   public:
     SiteColumns(const SitePosition& site, const GridSpec& spec, double reach_m);
 
-    // Returns the column of a place. The arc must be within the reach.
+    // Returns the column at which a place is. The arc must be within the reach.
     [[nodiscard]] ColumnPoint at(double sine, double cosine, double arc_m) const;
 
   private:
@@ -38,9 +39,9 @@ class SiteColumns {
     Way way_;
     SiteFrame frame_;
     GridProjection projection_;
-    double middle_x_, middle_y_, columns_per_m_ = 0;  // for the formula
+    double middle_x_, middle_y_, columns_per_m_ = 0;  // of the formula
     double step_m_ = 1;
-    int nodes_ = 0;  // along each side of the table, from -reach
+    int nodes_ = 0;  // along each side of the table, which begins at -reach
     double first_m_ = 0;
     std::vector<ColumnPoint> table_;
 };

@@ -10,25 +10,27 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr int widest_step = 8;
-constexpr double tolerance_m = 0.05;   // the greatest error of an arc that a check accepts
+constexpr double tolerance_m = 0.05;   // a check accepts an arc with at most this error
 constexpr double least_arc_m = 100e3;  // shorter arcs may err more
-// Patches whose nodes are all farther away are not checked, because no caller uses them.
+// Patches whose nodes are all farther away than this are not checked, because no caller uses them.
 constexpr double farthest_asked_m = 2000e3;
-constexpr int patches_to_ask = 1024;  // if there are more, every fourth along x and y
+// If there are more, only every fourth along x and y is checked.
+constexpr int patches_to_ask = 1024;
 
-// The weights of three nodes at -1, 0 and 1.
+// The weights of three nodes, which are at -1, 0 and 1.
 using Weights = std::array<double, 3>;
 constexpr Weights weights_at(double t) {
     return {0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)};
 }
 
-// Computes the squares of arcs at fractional columns of a domain.
+// Computes the square of the arc at fractional columns of a domain.
 class Solver {
   public:
     Solver(const GridSpec& domain, const GridWindow& window, const SitePosition& site)
         : projection_(domain), frame_(site.latitude_deg, site.longitude_deg), window_(window) {}
 
-    // Returns the squared arc at a place of the window; NaN beyond a pole in a grid in degrees.
+    // Returns the square of the arc at a place of the window. Returns NaN beyond a pole of a grid
+    // in degrees.
     [[nodiscard]] double at(double x, double y) const {
         const double arc_m =
             frame_.to_polar(projection_.to_geo({window_.first_x + x, window_.first_y + y})).arc_m;
@@ -63,7 +65,7 @@ struct Lattice {
 
 Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
     // Returns the number of nodes along a side of the window: one for each column, or enough to
-    // cover whole bricks, including nodes at both ends.
+    // cover whole bricks with nodes at both ends.
     const auto along = [&](int cells) {
         return step == 1 ? cells : bricks_along(cells) * brick_edge / step + 1;
     };
@@ -87,8 +89,8 @@ Lattice solve_nodes(const Solver& solver, const GridWindow& window, int step) {
     return true;
 }
 
-// Returns true if the lattice is accurate enough. The error of a polynomial of second degree peaks
-// at 1 / sqrt(3) between its nodes, so it is checked there.
+// Returns true if the lattice is accurate enough. The error of a polynomial of second degree is
+// largest at 1 / sqrt(3) between its nodes, so it is checked there.
 bool holds(const Lattice& lattice, const Solver& solver) {
     static constexpr double peak = 0.577;
     static constexpr Weights weights = weights_at(peak);

@@ -13,15 +13,15 @@
 
 namespace stormcellar::grid {
 
-// Returns bad_argument unless the site's latitude, longitude and altitude are possible.
+// Returns bad_argument if the site's latitude, longitude or altitude is impossible.
 [[nodiscard]] Status check_on_earth(const SitePosition& site);
 
-// Returns the middle of the box of latitudes and longitudes that holds the sites, on the shorter
-// way around the earth. There must be at least one site.
+// Returns the middle of the box of latitudes and longitudes that holds the sites. The box goes the
+// shorter way around the earth. There must be at least one site.
 [[nodiscard]] GeoPoint middle_of(std::span<const SitePosition> sites);
 
-// The distances from the center to the outermost sites, along east-west and north-south, in the
-// plane about the center. Both are 0 without sites.
+// The distances from the center to the outermost sites, east-west and north-south, in the plane
+// about the center. Both are 0 if there are no sites.
 struct HalfExtent {
     double x_m = 0, y_m = 0;
 };

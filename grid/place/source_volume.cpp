@@ -20,9 +20,9 @@ bool holds_any(const level2::Volume& volume, const std::vector<level2::Moment>& 
     });
 }
 
-// Decodes the metadata, lets `choose_cuts` choose cuts and decodes them. Returns none if decoding
-// fails, there is no pattern, all cuts are chosen, the cuts do not hold the moments, or the file
-// has several volumes.
+// Decodes the metadata, lets `choose_cuts` choose cuts, and decodes these cuts. Returns none if
+// decoding fails, there is no pattern, all cuts are chosen, the cuts do not hold the moments, or
+// the file has several volumes.
 std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
                                            level2::DecodeOptions options,
                                            const ChooseCuts& choose_cuts) {
@@ -34,13 +34,12 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     if (options.selection.all_cuts()) return std::nullopt;
     auto decoded = level2::decode(bytes, options);
     if (!decoded || !holds_any(decoded->volume, options.selection.moments)) return std::nullopt;
-    // Other volumes of the file may have other patterns.
+    // The other volumes of the file may have other patterns.
     if (!decoded->report.further_volume_starts.empty()) return std::nullopt;
     return std::move(*decoded);
 }
 
-// Takes one volume of the file. If the file has several volumes, adds a note that says which volume
-// was taken.
+// Takes one volume of the file. If the file has several, adds a note that says which one.
 Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wish,
                                    SourceVolume& source) {
     const bool damaged = decoded.report.damaged;

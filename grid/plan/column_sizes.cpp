@@ -9,7 +9,8 @@
 namespace stormcellar::grid {
 namespace {
 
-// Other beam models bend the beam more or less, which moves a gate along the ground by up to this.
+// Other beam models bend the beam more or less. This moves a gate along the ground by up to this
+// much.
 constexpr float bent_by_m = 500;
 
 std::vector<std::uint16_t> valued_cells(const Grid& base) {
@@ -23,7 +24,7 @@ std::vector<std::uint16_t> valued_cells(const Grid& base) {
     return valued;
 }
 
-// Returns the greatest number of valued cells in a column or one of the eight around it.
+// Returns the greatest number of cells with a value in a column or one of the eight around it.
 std::uint16_t most_beside(const std::vector<std::uint16_t>& valued, const GridSpec& spec, int ix,
                           int iy) {
     std::uint16_t most = 0;
@@ -45,13 +46,13 @@ class NearGates {
           half_cell_m_(static_cast<float>(std::hypot(spec.cell_width_m(), spec.cell_height_m())) /
                        2) {}
 
-    // Selects the sweeps that may have a value around a tile. A sweep whose samples there are all
-    // no echo, or all not seen, is left out.
+    // Selects the sweeps that may have a value around a tile. Leaves out a sweep whose samples
+    // there are all no echo, or all not seen.
     void move_to(const Tile& tile) {
         busy_.clear();
         const auto table_end =
             static_cast<float>(static_cast<double>(stack_.table_size - 2) * ArcTable::step_m);
-        if (!(tile.bounds.least_arc_m < table_end)) return;  // beyond every gate
+        if (!(tile.bounds.least_arc_m < table_end)) return;  // the tile is beyond every gate
         for (std::size_t i = 0; i < stack_.sweeps.size(); ++i) {
             const float azimuth_deg = reach_deg(i, tile.bounds.least_arc_m);
             const PolarBounds around = tile.bounds.widened(azimuth_deg, reach_m());
@@ -59,8 +60,7 @@ class NearGates {
         }
     }
 
-    // Returns the number of levels that gates near this column may fill; 0 if there are no such
-    // gates.
+    // Returns how many levels the gates near this column may fill; 0 if there are no such gates.
     [[nodiscard]] std::uint16_t levels_near(const ColumnPlace& at) const {
         float lowest_m = highest_beam_m;
         float highest_m = -highest_beam_m;
@@ -89,7 +89,7 @@ class NearGates {
 
   private:
     [[nodiscard]] float reach_m() const { return half_cell_m_ + stack_.gate_spacing_m + bent_by_m; }
-    // Returns the angle of half a cell plus one radial spacing or one beam width, whichever is
+    // Returns the angle of half a cell plus one radial spacing, or plus one beam width if that is
     // wider.
     [[nodiscard]] float reach_deg(std::size_t sweep, float arc_m) const {
         const float cell_deg =

@@ -14,7 +14,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The number of tiles in a piece of work for a thread.
+// A thread takes this many tiles at a time.
 constexpr std::size_t tiles_a_piece = 16;
 constexpr std::size_t fewest_pieces = 2;
 constexpr std::size_t most_pieces = 8;
@@ -29,7 +29,8 @@ bool may_hold_values(const GridScene& scene, const Tile& tile) {
     return false;
 }
 
-// Spreads the sample evenly along the arc, so that each of its pieces has near and far tiles.
+// Selects tiles that are spread evenly along the arc, so that each piece of the sample has near and
+// far tiles.
 TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     std::stable_sort(tiles.begin(), tiles.end(), [](const Tile& a, const Tile& b) {
         return a.bounds.least_arc_m < b.bounds.least_arc_m;
@@ -45,7 +46,8 @@ TileSample::Stratum spread(std::vector<Tile> tiles, std::size_t of_each) {
     return stratum;
 }
 
-// Times a stratum. If a run is short, repeats it and takes the lesser time, which has less noise.
+// Times a stratum. If the run was short, repeats it and takes the smaller time, which has less
+// noise.
 Result<double> stratum_s(GridScene& scene, const Method& method,
                          const TileSample::Stratum& stratum) {
     if (stratum.tiles.empty()) return 0.0;
@@ -59,7 +61,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     return *took_s * static_cast<double>(stratum.count) / static_cast<double>(stratum.tiles.size());
 }
 
-// Estimates how long the geodesics of all columns take, by timing some of them.
+// Estimates how long the geodesics of all columns take. Times only some of them.
 double geodesics_s(const GridScene& scene) {
     constexpr int a_side = 16;
     const GridSpec& spec = scene.spec();
@@ -84,7 +86,8 @@ double geodesics_s(const GridScene& scene) {
     return least_s * static_cast<double>(spec.column_count()) / (a_side * a_side);
 }
 
-// The times of filling the whole grid by each interpolation, for points and for areas.
+// The times of filling the whole grid by each interpolation, for cells that are points and for
+// cells that are areas.
 using Fills = std::array<std::array<double, 2>, interpolation_facts.size()>;
 
 Result<Fills> predicted_fills(GridScene& scene, Method method, const TileSample& sample) {
@@ -105,8 +108,8 @@ double more(double with_s, double without_s) {
     return std::max(0.0, with_s - without_s);
 }
 
-// Sets the cost of each effect without joint costs: the cost of an interpolation is that for point
-// cells, and the cost of areas is that for the nearest gate.
+// Sets the cost of each effect without joint costs. The cost of an interpolation is its cost for
+// point cells. The cost of areas is their cost for the nearest gate.
 void set_effect_costs(const Fills& fills, std::size_t interpolation, std::size_t cell,
                       accuracy::Chain& chain) {
     std::vector<accuracy::Effect>& rungs = chain.steps[interpolation].effects;
@@ -127,8 +130,8 @@ void set_joint_costs(const Fills& fills, std::size_t interpolation, std::size_t 
     }
 }
 
-// Returns the step with this name, which the chain must have. Only step::circle may be missing in a
-// grid's chain.
+// Returns the step with this name. The chain must have it; only step::circle may be missing in the
+// chain of a grid.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -163,7 +166,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     const std::size_t cell = accuracy::find_step(chain, step::cell).value();
     accuracy::Choice cheapest;
     cheapest.rungs.resize(chain.steps.size());
-    Method usual;  // the usual rungs; the chain does not choose the averaging
+    Method usual;  // has the usual rungs; the chain does not choose the averaging
     usual.averaging = scene_choice(chain, cheapest).method.averaging;
     const auto fills = predicted_fills(scene, usual, sample);
     if (!fills) return pass_on(fills);
@@ -188,7 +191,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
         method.on_circle = false;
         if (auto done = set_cost_without(step::circle, method); !done) return done;
     }
-    // All closed formulas take equally long, and sampling takes the same time along any path.
+    // All closed formulas take equally long, and so does sampling along any path.
     method = usual;
     method.beam = BeamKind::traced;
     const double traced_s = scene.stack_seconds(method);
@@ -196,7 +199,7 @@ Status predict_costs(GridScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::beam).effects[1].cost_s = more(traced_s, tables_s);
     step_named(chain, step::frame).effects[1].cost_s = geodesics_s(scene);
 
-    // The base was made by the default chain, in the moment's own unit.
+    // The base was made by the default chain, in the unit of the moment.
     const auto base_fill_s = predicted_fill_s(scene, Method{}, sample);
     if (!base_fill_s) return pass_on(base_fill_s);
     const double rest_s = more(scene.base_seconds(), *base_fill_s + scene.stack_seconds(Method{}));

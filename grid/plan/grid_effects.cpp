@@ -15,8 +15,8 @@ using accuracy::Step;
 
 struct EffectFacts {
     std::string_view step, name, rung, what;
-    // The time for 460 x 460 x 32 cells over a convective volume, relative to nearest gates
-    // (docs/accuracy.md).
+    // The time for 460 x 460 x 32 cells over a convective volume, as a multiple of the time with
+    // nearest gates (docs/accuracy.md).
     double effort = 0;
 };
 constexpr auto effect_facts = std::to_array<EffectFacts>({

@@ -1,5 +1,5 @@
-// grid/plan/grid_effects.h -- the steps of gridding, the ways to do each (rungs), and the effects
-// that better rungs include; for the accuracy planner.
+// grid/plan/grid_effects.h -- defines, for the accuracy planner, the steps of gridding, the ways to
+// do each step (rungs), and the effects that better rungs include.
 //
 //   step           rungs, from cheap to exact                      effects that reach them
 //   frame          sphere, table, geodesic                         ellipsoid, exact_geodesic
@@ -9,11 +9,11 @@
 //                                                       horizontal_interpolation, beam_width
 //   cell           point, area                                     cell_size
 //   averaging      in dB or, for REF, in Z                         none: the user chooses
-//   circle         (VEL, PHI) as numbers, on the circle            velocity_folding, phase_folding
+//   circle         as numbers, on the circle (VEL, PHI only)      velocity_folding, phase_folding
 // The exact form of the chain is the last rung of every step. A budget bounds the difference from
-// the exact form on the same gates. docs/accuracy.md discusses which forms are nearer to the truth.
+// the exact form on the same gates. docs/accuracy.md says which forms are nearer to the truth.
 //
-// Threads   Pure functions, except those that take a scene (grid/plan/grid_scene.h).
+// Threads   Pure functions, except the ones that take a scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include <span>
@@ -26,7 +26,7 @@
 
 namespace stormcellar::grid {
 
-// The names of the steps, as constants, so that a misspelled name does not compile.
+// The names of the steps. They are constants, so that a misspelled name does not compile.
 namespace step {
 inline constexpr std::string_view frame = "frame";
 inline constexpr std::string_view beam = "beam";
@@ -37,36 +37,37 @@ inline constexpr std::string_view averaging = "averaging";
 inline constexpr std::string_view circle = "circle";
 }  // namespace step
 
-// Returns the chain with names, rungs and sentences. All sizes and costs are 0 and all settings are
-// automatic. All its forms, including the exact form, use `averaging`, because neither dB nor Z
-// approximates the other.
+// Returns the chain with its names, rungs and sentences. All sizes and costs are 0, and all
+// settings are automatic. All forms of the chain, including the exact form, use `averaging`,
+// because neither dB nor Z approximates the other.
 [[nodiscard]] accuracy::Chain effects_of(level2::Moment moment,
                                          Averaging averaging = Averaging::in_db);
 
 [[nodiscard]] SceneChoice scene_choice(const accuracy::Chain& chain,
                                        const accuracy::Choice& choice);
 
-// Returns the usual choice, changed by the settings of the effects: the table, the 4/3 earth, each
-// radial's elevation, linear along the column at a point, in the unit of the moment, on its circle.
+// Returns the usual choice, changed by the settings of the effects. The usual choice is the table,
+// the 4/3 earth, each radial's elevation, and linear interpolation along the column at a point, in
+// the unit of the moment and on its circle.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
-// Returns the choice with which other choices are compared: the last rung of every step, except
-// that the frame is the table. A geodesic for each column differs from the table by a millimeter
-// and takes half a second.
+// Returns the choice with which others are compared: the last rung of every step, but with the
+// table as the frame. Geodesics for each column would differ from the table by a millimeter and
+// take half a second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
-// Returns the choice to measure in place of `choice`: its frame is the table if it was geodesics;
-// all else is equal.
+// Returns the choice that is measured in place of `choice`. If its frame is geodesics, the table
+// replaces them; all else is equal.
 [[nodiscard]] SceneChoice as_measured(SceneChoice choice);
 
-// Returns the extra effort (stormcellar/accuracy/effect.h) of these two rungs together, beyond the
-// sum of their efforts.
+// Returns the extra effort (stormcellar/accuracy/effect.h) of these two rungs together, which adds
+// to the sum of their efforts.
 [[nodiscard]] double joint_effort(Interpolation interpolation, CellExtent cell);
 
-// default_choice() returns the choice that is used without a budget. The choice is usual_choice(),
-// except that cells are areas if they are wider than the beam at 160 km (2.7 km for a WSR-88D),
-// because point samples would alias. The extent of the grid does not matter, because a grid of a
-// part of an area must equal that part of a grid of the whole area.
+// default_choice() returns the choice that is used without a budget. This is usual_choice(), except
+// that cells are areas if they are wider than the beam at 160 km (2.7 km for a WSR-88D), because
+// samples at points would alias. The extent of the grid does not matter, because the grid of a part
+// of an area must equal that part of the grid of the whole area.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);
@@ -76,13 +77,13 @@ inline constexpr double wide_cells_arc_m = 160e3;
 
 struct PlanOptions {
     std::size_t predict_columns = 500;  // for predicting the size and cost of each effect
-    // for bounds on the chosen form; more are drawn if a bound needs them
+    // For bounds on the chosen form. More columns are drawn if a bound needs them.
     std::size_t measure_columns = 2500;
     std::uint64_t seed = 1;
 };
 
-// Predicts the size and cost of each effect for this scene: positions by proven bounds, values by a
-// sample.
+// Predicts the size and cost of each effect for this scene. Positions have proven bounds; values
+// come from a sample.
 [[nodiscard]] Status predict(GridScene& scene, const PlanOptions& options, accuracy::Chain& chain);
 
 struct GridPlan {
@@ -91,13 +92,14 @@ struct GridPlan {
 };
 
 // Predicts, chooses and measures (accuracy/governor.h). Without a budget, returns the plan of the
-// default, with the size of each effect. Errors: the errors of accuracy::govern() and of gridding.
+// default choice, with the size of each effect. Errors: those of accuracy::govern() and of
+// gridding.
 [[nodiscard]] Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                                          const std::optional<accuracy::Budget>& budget,
                                          const PlanOptions& options = {});
 
-// Returns the error that the plan predicts, for provenance: "position 70.3 m, value 0.42 dB (99th
-// percentile)".
+// Returns the error that the plan predicts, as text for the provenance: "position 70.3 m, value
+// 0.42 dB (99th percentile)".
 [[nodiscard]] std::string predicted_error(const accuracy::Plan& plan);
 
 }  // namespace stormcellar::grid

@@ -56,13 +56,14 @@ Result<Position> frame_position(GridScene& scene, FrameKind kind) {
     return errors.summary();
 }
 
-// Returns the position errors of gates every 2 km of the sweeps, up to the top level.
+// Returns the position errors by the beam: of gates every 2 km along the sweeps, up to the top
+// level.
 Position beam_position(const GridScene& scene, BeamKind kind) {
     constexpr double step_m = 2000;
     const RefractivityProfile& profile = scene.options().profile;
     const BeamModel rung = beam_model_of(scene.site(), kind, profile);
     const BeamModel exact = beam_model_of(scene.site(), BeamKind::traced, profile);
-    const double reach_m = scene.reach_m();  // costs geodesics to the columns at the border
+    const double reach_m = scene.reach_m();  // solves the geodesics of the columns at the border
     PositionErrors errors;
     for (const ChosenSweep& sweep : scene.chosen()) {
         const BeamPath a = rung.path(sweep.elevation_deg);
@@ -80,7 +81,7 @@ Position beam_position(const GridScene& scene, BeamKind kind) {
     return errors.summary();
 }
 
-// Returns the position errors of the radials where they leave the grid.
+// Returns the position errors by the elevation: of each radial where it leaves the grid.
 Position elevation_position(const GridScene& scene) {
     constexpr double step_m = 1000;
     PositionErrors errors;
@@ -112,8 +113,8 @@ Result<Position> position_of(GridScene& scene, const std::string& name, std::siz
     return Position{};
 }
 
-// Returns the position error of the whole chain: the sum of its steps' largest errors, and the root
-// of the sum of the squares of their RMS errors.
+// Returns the position error of a whole chain. Its largest error is the sum of its steps' largest
+// errors. Its RMS error is the root of the sum of the squares of their RMS errors.
 Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
     auto frame = frame_position(scene, choice.frame);
     if (!frame) return frame;
@@ -124,8 +125,8 @@ Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
                     std::hypot(frame->rms_m, beam.rms_m, jitter.rms_m)};
 }
 
-// Times the grid twice: first including its geometry and all other preparation, then without the
-// parts that can be kept.
+// Times the grid twice: once with its geometry and all other preparation, and once without what can
+// be kept.
 Status time_grid(GridScene& scene, const SceneChoice& choice, int rounds,
                  accuracy::LadderRow& row) {
     const GridderOptions options{scene.options().moment, scene.options().beam_width_deg,

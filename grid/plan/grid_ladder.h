@@ -1,16 +1,17 @@
 // grid/plan/grid_ladder.h -- measures the time and the error of each rung on one scene.
 //
-// A step of gridding, such as the beam, can be done in several ways, its rungs. Each rung of each
-// step has a row. The row's error is against the exact form of the chain, with every other step
-// exact, over sampled columns. The row's time is the time of a whole grid with the other steps at
-// their default, so a difference of two rows is what a user pays for the better rung. Rows of the
-// step "chain" are whole chains, including the default methods, with their own times and errors.
+// A step of gridding, such as the beam, can be done in several ways, which are its rungs. Each rung
+// of each step has a row. The error in the row is against the exact form of the chain; every other
+// step is exact; it covers sampled columns. The time in the row is the time of a whole grid with
+// the other steps at their default. So the difference between two rows is what a user pays for the
+// better rung. A row of the step "chain" is a whole chain with its own time and error; these rows
+// include the default methods.
 //
-// Position errors of the frame cover the sampled columns, position errors of the beam cover the
-// gates of the sweeps, and position errors of the elevation cover the radials. Times are
-// single-threaded unless the scene has more threads.
+// A position error of the frame covers the sampled columns. A position error of the beam covers
+// gates of the sweeps, and one of the elevation covers the radials. Times are for one thread unless
+// the scene has more threads.
 //
-// Threads   As for the scene (grid/plan/grid_scene.h).
+// Threads   The rules of the scene apply (grid/plan/grid_scene.h).
 #pragma once
 
 #include <functional>
@@ -26,10 +27,10 @@ namespace stormcellar::grid {
 
 struct LadderOptions {
     std::size_t columns = 2000;
-    int rounds = 3;  // rounds of timing; the least time counts
+    int rounds = 3;  // number of timings; the smallest time counts
     std::uint64_t seed = 1;
     Averaging averaging = Averaging::in_db;  // of all chains, including the exact form
-    // Receives the number of finished rows and of all rows; may be null.
+    // Receives the number of finished rows and the number of all rows. May be null.
     std::function<void(std::size_t done, std::size_t total)> progress = {};
 };
 
@@ -37,8 +38,8 @@ struct NamedChain {
     std::string name;
     SceneChoice choice;
 };
-// Returns the chains nearest, linear, ..., area and exact; for REF also area with the other
-// averaging.
+// Returns the chains: nearest, linear, ..., area and exact. For REF, also returns area with the
+// other averaging.
 [[nodiscard]] std::vector<NamedChain> named_chains(level2::Moment moment, Averaging averaging);
 
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(GridScene& scene,

@@ -22,9 +22,9 @@ Tile tile_of_one(const ColumnGeometry& geometry, int ix, int iy) {
     return {ix, ix + 1, iy, iy + 1, bounds.widened(0.01F, 0)};
 }
 
-// Returns an integer below `size`, the same on every machine.
+// Returns an integer below `size`. The result is the same on every machine.
 std::uint64_t below(std::uint64_t size, std::mt19937_64& random) {
-    return random() % size;  // a size below 2^32 makes this uneven by less than 1 in 2^32
+    return random() % size;  // uneven by less than 1 in 2^32, for a size below 2^32
 }
 
 }  // namespace

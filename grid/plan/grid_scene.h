@@ -1,9 +1,9 @@
-// grid/plan/grid_scene.h -- one volume over one grid spec, gridded by any method, as a whole or in
-// sampled columns. The accuracy planner measures on it.
+// grid/plan/grid_scene.h -- one volume over one grid spec, which is gridded by any method, as a
+// whole or in sampled columns. The accuracy planner measures on it.
 //
-// Geometries and prepared sweeps serve several methods, so a scene keeps them. Columns are drawn in
-// proportion to the number of their cells that may hold a value, so that few draws are wasted on
-// clear air. If few columns may hold a value, all of these are taken.
+// A scene keeps geometries and prepared sweeps, because several methods use them. Columns are drawn
+// in proportion to the number of their cells that may hold a value, so that few draws are wasted on
+// clear air. If only a few columns may hold a value, all of these are taken.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -37,7 +37,7 @@ struct SceneOptions {
     double beam_width_deg = 0;  // 0: beam_width_of() the site
     RefractivityProfile profile = RefractivityProfile::reference();
     int threads = 1;
-    // Uses the repeated sweep nearest to this time; none: the newest.
+    // The time that chooses among repeated sweeps: the nearest to it is used; none: the newest.
     std::optional<UtcTime> nearest_to = std::nullopt;
 };
 
@@ -45,13 +45,13 @@ struct SceneOptions {
 struct ColumnSample {
     struct Drawn {
         int ix = 0, iy = 0;
-        double weight = 1;  // number of columns that each draw represents, in some scale
+        double weight = 1;  // number of columns that a draw stands for, up to a common factor
         int draws = 1;
     };
     std::vector<Drawn> columns;
-    std::vector<Tile> tiles;  // one column each, in the same order
-    bool is_census = false;   // true for all columns that may hold a value
-    double most_weight = 1;   // largest weight * cells of any column that could have been drawn
+    std::vector<Tile> tiles;  // one for each column, in the same order
+    bool is_census = false;   // the sample has all columns that may hold a value
+    double most_weight = 1;   // largest (weight * cells) of any column that could have been drawn
 };
 
 // The cells of the sampled columns, column by column.
@@ -60,22 +60,22 @@ struct SampledCells {
     std::vector<float> values;
 };
 
-// The differences between two methods on the same gates. Values of moments that wrap differ by the
-// shorter way around (grid/plan/cell_circle.h).
+// The differences between two methods on the same gates. For moments that wrap, values differ by
+// the shorter way around (grid/plan/cell_circle.h).
 struct SampledErrors {
-    // over cells with a value in both; one cluster for each column
+    // One cluster for each column. It has the cells with a value by both methods.
     std::vector<accuracy::ErrorCluster> clusters;
     accuracy::StatusCounts status;
     double most_weight = 1;
     bool is_census = false;
 
-    // Returns an upper bound of the 99th percentile of the magnitudes of all errors, at 99.9 %
-    // confidence (for a census, the percentile itself), or none if the sample is too small.
+    // Returns an upper bound, at 99.9 % confidence, of the 99th percentile of the magnitudes of all
+    // errors. For a census, returns the percentile itself. Returns none if the sample is too small.
     [[nodiscard]] std::optional<double> p99_bound() const;
-    // Returns how full the sampled columns are: the mean over the clusters of (weight * errors) /
-    // most_weight, from 0 to 1.
+    // Returns how full the sampled columns are, from 0 to 1: the mean over the clusters of (weight
+    // * errors) / most_weight.
     [[nodiscard]] double mean_load() const;
-    // Returns the 99th percentile of the sample itself; 0 if no cell has a value in both grids.
+    // Returns the 99th percentile of the sample itself; 0 if no cell has a value by both methods.
     [[nodiscard]] double p99_estimate() const;
 };
 
@@ -87,13 +87,13 @@ class GridScene {
                                                 const SitePosition& site, const GridSpec& spec,
                                                 const SceneOptions& options);
 
-    // Returns the grid by the default method, from which the sampling is planned.
+    // Returns the grid by the default method. It decides how columns are sampled.
     [[nodiscard]] const Grid& base() const { return base_; }
-    // Returns the seconds that the base took. All times of a scene are processor time for one
-    // thread, whatever else the machine does, and elapsed time for several threads.
+    // Returns the seconds that the base took. For one thread, all times of a scene are processor
+    // time, whatever else the machine does. For several threads, they are elapsed time.
     [[nodiscard]] double base_seconds() const { return base_seconds_; }
 
-    // Draws about `count` columns, with a generator seeded by `seed`.
+    // Draws about `count` columns. `seed` seeds the random generator.
     [[nodiscard]] ColumnSample draw(std::size_t count, std::uint64_t seed) const;
     [[nodiscard]] Result<SampledCells> evaluate(const SceneChoice& choice,
                                                 const ColumnSample& sample);
@@ -106,7 +106,7 @@ class GridScene {
                       static_cast<std::size_t>(ix)] > 0;
     }
     // tiles() returns all tiles of the grid. fill() fills the given tiles, with the table as frame,
-    // and returns the seconds that took.
+    // and returns how many seconds that took.
     [[nodiscard]] std::span<const Tile> tiles() const;
     [[nodiscard]] Result<double> fill(const Method& method, std::span<const Tile> tiles);
 
@@ -115,11 +115,11 @@ class GridScene {
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
     [[nodiscard]] const SceneOptions& options() const { return options_; }
     [[nodiscard]] const std::vector<ChosenSweep>& chosen() const { return chosen_; }
-    // Returns the arc of the farthest column or of the farthest gate, whichever is less.
+    // Returns the arc of the farthest column, or of the farthest gate if that is less.
     [[nodiscard]] double reach_m() const;
     [[nodiscard]] Result<std::shared_ptr<const ColumnGeometry>> geometry(FrameKind kind);
     [[nodiscard]] const SweepStack& stack(const Method& method) { return *kept(method).stack; }
-    // Returns the seconds that preparing the sweeps for the method took.
+    // Returns the seconds that it took to prepare the sweeps for the method.
     [[nodiscard]] double stack_seconds(const Method& method) { return kept(method).seconds; }
 
   private:
@@ -133,7 +133,7 @@ class GridScene {
     GridScene() = default;
     [[nodiscard]] const KeptStack& kept(const Method& method);
     [[nodiscard]] double now_s() const;
-    // Returns a grid for filling columns that nobody reads.
+    // Returns a grid into which columns are filled that nobody reads.
     [[nodiscard]] Grid& scratch();
 
     const level2::Volume* volume_ = nullptr;

@@ -16,8 +16,8 @@ PositionScene position_scene(const GridScene& scene) {
             scene.options().profile, scene.options().moment};
 }
 
-// Returns true if velocities span more than the smallest Nyquist velocity, so that some may be on
-// the far side of a fold.
+// Returns true if velocities differ by more than the smallest Nyquist velocity, so that some may be
+// on the far side of a fold.
 bool may_fold(const GridScene& scene) {
     float least = std::numeric_limits<float>::max();
     float most = std::numeric_limits<float>::lowest();
@@ -35,7 +35,7 @@ bool may_fold(const GridScene& scene) {
     return most > least && most - least > nyquist;
 }
 
-// Predicts the sizes of one step's effects from its rungs, with the other steps exact.
+// Predicts the sizes of one step's effects from its rungs. The other steps are exact.
 Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledCells& exact,
                     std::size_t index, accuracy::Chain& chain) {
     accuracy::Step& step = chain.steps[index];
@@ -54,7 +54,7 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     for (accuracy::Effect& effect : step.effects) {
         effect.predicted.position_m = effect_position_m(position_scene(scene), effect.name);
         effect.evidence = accuracy::Evidence::sample;
-        // A grid about its own site is the same for every rung of the frame.
+        // If the grid is about its own site, every rung of the frame gives the same grid.
         if (step.name == step::frame && centered)
             effect.evidence = accuracy::Evidence::proven_bound;
         if (effect.name == "exact_geodesic") effect.evidence = accuracy::Evidence::proven_bound;
@@ -65,10 +65,10 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// Returns how many columns are needed for a good bound of the 99th percentile. With 900 columns
-// that hold as many errors as they may (accuracy/quantile_bound.h), the bound is just the greatest
-// error; three times as many make it good. If columns hold less, more are needed in proportion; a
-// separate sample shows how much they hold.
+// Returns how many columns give a good bound of the 99th percentile. With 900 columns that each
+// hold as many errors as a column can (accuracy/quantile_bound.h), the bound is only the greatest
+// error; three times as many make it good. If columns hold fewer errors, more columns are needed,
+// in proportion. A separate sample shows how many errors they hold.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
     constexpr double full_columns = 3 * 900;
@@ -97,7 +97,7 @@ Result<GridPlan> plan_grid(GridScene& scene, accuracy::Chain chain,
                            const std::optional<accuracy::Budget>& budget,
                            const PlanOptions& options) {
     if (auto done = predict(scene, options, chain); !done) return pass_on(done);
-    // Draw new columns, so that a second sample checks a prediction from the first.
+    // Draw new columns, so that a second sample checks the prediction from the first.
     std::optional<ColumnSample> sample;
     std::optional<SampledCells> exact;
     const auto measure = [&](const accuracy::Choice& choice) -> Result<accuracy::Measured> {

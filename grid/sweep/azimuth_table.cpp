@@ -13,7 +13,8 @@ constexpr double gap_spacings = 1.5;
 void AzimuthTable::sort(std::span<const float> azimuths_deg) {
     for (std::size_t i = 0; i < azimuths_deg.size(); ++i)
         entries_.push_back({azimuths_deg[i], static_cast<int>(i), false});
-    // Sort later radials first if azimuths are equal, because unique() keeps the first.
+    // If azimuths are equal, sort later radials first, because unique() keeps the first of equal
+    // entries.
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
         return a.azimuth_deg != b.azimuth_deg ? a.azimuth_deg < b.azimuth_deg : a.radial > b.radial;
     });
@@ -31,8 +32,8 @@ void AzimuthTable::add_sector(double end_deg, int entry) {
     radials_.push_back(entry == none ? none : entries_[static_cast<std::size_t>(entry)].radial);
 }
 
-// Goes around once, from the last radial before north to the first after north. The sectors of
-// neighboring radials meet in the middle, unless the radials are so far apart that there is a gap.
+// Makes the sectors, from the last radial before north once around to the first radial after north.
+// The sectors of neighboring radials meet half way, unless there is a gap between the radials.
 void AzimuthTable::make_sectors() {
     const std::size_t count = entries_.size();
     if (count == 0) {
@@ -60,8 +61,8 @@ void AzimuthTable::make_sectors() {
     add_sector(360, static_cast<int>(before));
 }
 
-// Sectors are narrow and many. So that find() need not search, the table notes the first sector in
-// each quarter degree.
+// Sectors are narrow and many, so the table notes the first sector in each quarter degree. find()
+// then starts there.
 AzimuthTable::AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg)
     : spacing_deg_(static_cast<float>(spacing_deg)) {
     sort(azimuths_deg);

@@ -1,13 +1,13 @@
-// grid/sweep/azimuth_table.h -- which radials of a sweep see an azimuth.
+// grid/sweep/azimuth_table.h -- tells which radials of a sweep see an azimuth.
 //
 // The table finds the nearest radial, the two radials on either side of an azimuth, or all radials
-// within a reach. Where neighboring radials are more than one and a half spacings apart, there is a
-// gap: each of the two radials reaches half a spacing into the gap, and no radial sees the rest.
-// Pairs and neighborhoods do not extend across gaps. If radials have the same azimuth, the later
-// one in the given order counts. Radials may be in any order and number, and may wrap around north.
+// within a reach. If two neighboring radials are more than one and a half spacings apart, there is
+// a gap: each of the two reaches half a spacing into it, and no radial sees the rest. Pairs and
+// neighborhoods do not extend across gaps. If radials have the same azimuth, the one that is later
+// in the given order counts. Radials may be in any order and number, and may wrap around north.
 //
-// A lookup is exact, because it starts from a table of quarter degrees and then searches along
-// sorted boundaries, usually for a step or two.
+// A lookup starts from a table of quarter degrees and then searches along sorted boundaries,
+// usually for a step or two. So it is exact.
 //
 // Units     Degrees, clockwise from north.
 // Threads   Immutable.
@@ -27,16 +27,16 @@ class AzimuthTable {
   public:
     static constexpr int none = -1;
 
-    // There must be one azimuth in [0, 360) for each radial. The spacing is above 0.
+    // There must be one azimuth in [0, 360) for each radial. The spacing must be above 0.
     AzimuthTable(std::span<const float> azimuths_deg, double spacing_deg);
 
-    // Returns the position of the nearest radial in the constructor's list, or none if no radial
-    // sees the azimuth, which must be in [0, 360).
+    // Returns the position of the nearest radial in the constructor's list. Returns none if no
+    // radial sees the azimuth. The azimuth must be in [0, 360).
     [[nodiscard]] int find(float azimuth_deg) const { return radials_[sector_at(azimuth_deg)]; }
 
-    // The nearest radial and its neighbor on the other side of the azimuth. `other_weight`, in [0,
-    // 1/2], is the share of the neighbor if values are linear in between. `other` is none across a
-    // gap.
+    // The nearest radial, and its neighbor on the other side of the azimuth. `other_weight` is the
+    // share of the neighbor, in [0, 1/2], if values are linear in between. `other` is none if a gap
+    // is on that side.
     struct Bracket {
         int nearest = none;
         int other = none;
@@ -46,22 +46,22 @@ class AzimuthTable {
 
     // Calls visit(position, offset_deg) for the radial nearest to the azimuth, and for each radial
     // within `reach_deg` that no gap separates from the azimuth. The offset is positive clockwise.
-    // Visits none if no radial sees the azimuth.
+    // Calls nothing if no radial sees the azimuth.
     template <class Visit>
     void visit(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // Calls visit() for each radial within `reach_deg`, also across gaps. A reach of 180 visits
-    // all.
+    // Calls visit() for each radial within `reach_deg`, even if a gap is in between. A reach of 180
+    // visits all radials.
     template <class Visit>
     void visit_all(float azimuth_deg, float reach_deg, Visit visit) const;
 
-    // Returns the share of azimuths that some radial sees, from `from_deg` clockwise over
-    // `width_deg`, which is at most 360.
+    // Returns the share of azimuths that some radial sees, in the range from `from_deg` clockwise
+    // over `width_deg`. The width is at most 360.
     [[nodiscard]] double seen_share(double from_deg, double width_deg) const;
 
     // Calls visit(position) for every radial that sees some azimuth from `from_deg` to `to_deg`
-    // (from <= to < from + 360, from in [0, 360)), and with `none` for gaps. Stops when visit
-    // returns false.
+    // (from <= to < from + 360, from in [0, 360)). Calls it with `none` for each gap. Stops when
+    // visit returns false.
     template <class Visit>
     void visit_between(float from_deg, float to_deg, Visit visit) const;
 
@@ -96,8 +96,8 @@ class AzimuthTable {
     float spacing_deg_;
     bool has_gaps_ = false;
     std::vector<Entry> entries_;  // by azimuth
-    // The sectors from 0 to 360 degrees: the end of each, the radial that sees it, and that
-    // radial's entry.
+    // The sectors from 0 to 360 degrees. Each has its end, the radial that sees it, and the entry
+    // of that radial.
     std::vector<float> ends_deg_;
     std::vector<int> radials_;
     std::vector<int> sector_entries_;
@@ -141,7 +141,8 @@ void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) co
         if (at == count) at = 0;
         const float offset_deg = turn_deg(azimuth_deg, entries_[at].azimuth_deg);
         if (reach_deg < 180 && offset_deg > reach_deg) return;
-        if (reach_deg < 180 && offset_deg < -reach_deg) continue;  // because of rounding
+        // Rounding may find such a radial.
+        if (reach_deg < 180 && offset_deg < -reach_deg) continue;
         visit(entries_[at].radial, offset_deg);
     }
 }
@@ -149,7 +150,7 @@ void AzimuthTable::visit_all(float azimuth_deg, float reach_deg, Visit visit) co
 template <class Visit>
 void AzimuthTable::visit_between(float from_deg, float to_deg, Visit visit) const {
     std::size_t at = sector_at(from_deg);
-    float turned_deg = 0;  // 360 after north was passed
+    float turned_deg = 0;  // 360 once north was passed
     while (true) {
         if (!visit(radials_[at])) return;
         if (ends_deg_[at] + turned_deg > to_deg) return;

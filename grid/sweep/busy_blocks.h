@@ -1,7 +1,7 @@
 // grid/sweep/busy_blocks.h -- marks the parts of a sweep's radials that hold anything but no echo.
 //
-// There is a bit for each block of 32 gates of each radial. The marks are exact: an unmarked block
-// holds only code 0.
+// There is a mark for each block of 32 gates of each radial. An unmarked block holds only code 0,
+// which is no echo.
 //
 // Threads   Immutable after the last mark().
 #pragma once
@@ -16,13 +16,14 @@ namespace stormcellar::grid {
 class BusyBlocks {
   public:
     BusyBlocks() = default;
-    // Makes room for `rows` radials of at most `gates` gates.
+    // Makes room for `rows` radials, each with at most `gates` gates.
     BusyBlocks(std::size_t rows, std::size_t gates);
 
-    // Marks the blocks of a radial. Gates that the radial lacks, up to `gates`, count as quiet.
+    // Marks the blocks of a radial. If the radial has fewer gates than `gates`, the missing gates
+    // count as no echo.
     void mark(std::size_t row, std::span<const std::uint8_t> codes);
 
-    // The blocks that hold two gates and all gates between them. Both gates must be within `gates`.
+    // The blocks from one gate to another, both included. Both gates must be below `gates`.
     struct Stretch {
         std::size_t first = 0, last = 0;
     };

@@ -22,8 +22,8 @@ float half_period_of(level2::Moment moment, float nyquist_mps) {
 }
 
 // Adds a value as its difference from the reference, the shorter way around. Without refer_to(),
-// the first value is the reference, so the caller adds the value with the largest weight first.
-// Omits a value on another circle.
+// the first value is the reference, so the caller must add the value with the largest weight first.
+// Leaves out a value that is on another circle.
 void Mixture::add_on_circle(float value, float half_period, float weight) {
     const bool is_first = sum_weight_ == 0 && !(half_period_ > 0);
     if (is_first) {

@@ -1,17 +1,18 @@
-// grid/sweep/mixture.h -- the status rule: decides the status and the value of a cell that mixes
+// grid/sweep/mixture.h -- the status rule, which decides the status and the value of a cell from
 // several gates.
 //
 // The rule (docs/geometry.md): the gates of a cell have the total weights v (valued), n (no echo),
 // f (range folded), a (ambiguous) and u (not seen). If u is over one half of the sum, the cell is
-// not seen. Otherwise, if f + a is the largest, the cell is range folded or ambiguous, whichever
-// weighs more. Otherwise, if v < n, the cell is no echo. Otherwise, the cell has a value. Range
-// folded, ambiguous and not seen never enter a value; the other weights are scaled to 1. For
+// not seen. Otherwise, if f + a is larger than v and than n, the cell is range folded or ambiguous,
+// whichever weighs more. Otherwise, if v < n, the cell is no echo. Otherwise, the cell has a value.
+// Range folded, ambiguous and not seen never enter a value; the other weights are scaled to 1. For
 // reflectivity, no echo enters a value with the detection limit of its gate; for other moments it
 // does not enter.
 //
-// Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle: as
-// differences from the value with the largest weight, the shorter way around. Values whose circles
-// differ or are unknown cannot be averaged; the result is then the value with the largest weight.
+// Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle. They enter
+// the mean as differences from the value with the largest weight, the shorter way around. Values
+// whose circles differ or are unknown cannot be averaged; the result is then the value with the
+// largest weight.
 //
 // Threads   Plain values.
 #pragma once
@@ -36,14 +37,14 @@ enum class Blending {
 }
 [[nodiscard]] Blending blending_of(level2::Moment moment);
 
-// Returns half the circle of a moment's values; 0 if values do not wrap, or if the radial's Nyquist
-// velocity is unknown (0 or not finite).
+// Returns half the circle of a moment's values. Returns 0 if values do not wrap, or if the Nyquist
+// velocity of the radial is unknown (0 or not finite).
 [[nodiscard]] float half_period_of(level2::Moment moment, float nyquist_mps);
 
 struct Sample {
     CellStatus status = CellStatus::not_seen;
     float value = 0;        // if the status is `value`
-    float limit = 0;        // if the status is `no_echo`: detection limit, in the unit of `value`
+    float limit = 0;        // if the status is `no_echo`: its detection limit
     float half_period = 0;  // for values that wrap; 0: unknown
 };
 
@@ -52,22 +53,23 @@ struct CellResult {
     float value = 0;
 };
 
-// Returns the value within [-half_period, half_period).
+// Wraps a value into [-half_period, half_period).
 [[nodiscard]] inline float wrap(float value, float half_period) {
     const float period = 2 * half_period;
     return value - period * std::floor((value + half_period) / period);
 }
 
-// Blends two samples; `weight_b`, in [0, 1], is the share of `b`.
+// Blends two samples. `weight_b` is the share of `b`, in [0, 1].
 [[nodiscard]] CellResult blend(const Sample& a, const Sample& b, float weight_b, Blending blending);
-// Returns blend(), for callers that know at compile time whether the moment wraps: `circular` must
-// equal is_circular(blending).
+// Returns the same as blend(). For callers that know at compile time whether the moment wraps;
+// `circular` must equal is_circular(blending).
 template <bool circular>
 [[nodiscard]] CellResult blend_as(const Sample& a, const Sample& b, float weight_b,
                                   Blending blending);
 
-// Sums the weights of any number of samples. If values wrap, either add the sample with the largest
-// weight first, or call refer_to() with a sample: its value is the reference of all differences.
+// Sums the weights of any number of samples. For values that wrap, either add the sample with the
+// largest weight first, or call refer_to() with a sample. Differences are then taken from the value
+// of that sample.
 class Mixture {
   public:
     [[nodiscard]] static Mixture of_unseen() {
@@ -83,13 +85,14 @@ class Mixture {
         is_circular(blending) ? add_as<true>(sample, weight, blending)
                               : add_as<false>(sample, weight, blending);
     }
-    // Adds a sample like add(). `circular` must equal is_circular(blending).
+    // Adds a sample. For callers that know at compile time whether the moment wraps; `circular`
+    // must equal is_circular(blending).
     template <bool circular>
     void add_as(const Sample& sample, float weight, Blending blending);
-    // Adds `count` samples of one status, each with weight 1. `sum` is the sum of their values, or
-    // of their limits for no echo. Not for values that wrap.
+    // Adds `count` samples of one status, each with weight 1. `sum` is the sum of their values or,
+    // for no echo, of their limits. Not for values that wrap.
     void add_counted(CellStatus status, int count, float sum, Blending blending);
-    // Adds all samples of another mixture, each with `weight` times its own weight.
+    // Adds all samples of another mixture. The weight of each is multiplied by `weight`.
     void add(const Mixture& other, float weight, Blending blending);
     void add_unseen(float weight) { unseen_ += weight; }
 
@@ -100,7 +103,7 @@ class Mixture {
     [[nodiscard]] CellResult result_as(Blending blending) const;
     [[nodiscard]] float weight() const { return valued_ + quiet_ + folded_ + ambiguous_ + unseen_; }
     [[nodiscard]] float unseen() const { return unseen_; }
-    // Return true if every sample is no echo, or if every sample is not seen.
+    // Returns true if all samples are no echo, or all are not seen.
     [[nodiscard]] bool is_all_quiet() const {
         return valued_ + folded_ + ambiguous_ + unseen_ == 0;
     }
@@ -112,7 +115,7 @@ class Mixture {
     void add_on_circle(float value, float half_period, float weight);
 
     float valued_ = 0, quiet_ = 0, folded_ = 0, ambiguous_ = 0, unseen_ = 0;
-    float sum_ = 0;  // of weight times value, limits included; circular: of weight times difference
+    float sum_ = 0;          // weight * value (limits too); circular: weight * difference
     float sum_weight_ = 0;   // the weight of the samples in sum_
     float reference_ = 0;    // circular: the value from which differences are taken
     float half_period_ = 0;  // circular: half of the circle

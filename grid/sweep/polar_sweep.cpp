@@ -28,8 +28,8 @@ PolarSweep::PolarSweep(const level2::Sweep& sweep, const ChosenSweep& chosen, co
             gates_.first_table()),
       azimuths_(azimuth_table(sweep, chosen)) {}
 
-// Decides for a whole tile: first by the gates at the tile's nearest and farthest arc, then by the
-// blocks between these gates in every radial that passes over the tile.
+// Decides for a whole tile. Looks first at the gates at the nearest and the farthest arc of the
+// tile, and then at the blocks between these gates in every radial that passes over the tile.
 std::optional<CellStatus> PolarSweep::uniform_status(const PolarBounds& bounds) const {
     return gates_.uniform_status(bounds.least_arc_m, bounds.greatest_arc_m, [&](const auto& visit) {
         azimuths_.visit_between(bounds.from_deg, bounds.to_deg, visit);

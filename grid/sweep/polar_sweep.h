@@ -1,8 +1,8 @@
 // grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for sampling at many columns.
 //
 // Numbers that depend only on the arc (the number of the gate, the height of the beam) are in
-// tables with a step of 500 m along the arc, and linear in between. The gates of a radial are
-// placed by the sweep's elevation, not by the radial's own elevation.
+// tables with a step of 500 m, and are linear in between. The gates of a radial are placed by the
+// elevation of the sweep and not of the radial.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).
@@ -33,10 +33,10 @@ class PolarSweep {
     [[nodiscard]] const SweepBeam& beam() const { return beam_; }
     [[nodiscard]] const AzimuthTable& azimuths() const { return azimuths_; }
 
-    // Returns the position of the nearest radial among those used, or AzimuthTable::none.
+    // Returns the position of the nearest radial among the used radials, or AzimuthTable::none.
     [[nodiscard]] int radial_at(float azimuth_deg) const { return azimuths_.find(azimuth_deg); }
-    // Returns the heights of the beam of the radial at `position`, or for AzimuthTable::none the
-    // heights at the sweep's elevation.
+    // Returns the heights of the beam of the radial at `position`. For AzimuthTable::none, returns
+    // the heights at the sweep's elevation.
     [[nodiscard]] BeamHeights heights_at(int position, ArcPlace place) const {
         const BeamHeights sweep = beam_.heights(place);
         if (position == AzimuthTable::none) return sweep;
@@ -49,20 +49,20 @@ class PolarSweep {
     [[nodiscard]] Sample sample(float azimuth_deg, ArcPlace place) const {
         return sample(radial_at(azimuth_deg), place);
     }
-    // Returns the nearest gate of the radial at `position`, for callers that already have `beam`,
-    // which is beam().at(place).
+    // Returns the nearest gate of the radial at `position`. For callers that already have `beam`,
+    // which must be beam().at(place).
     [[nodiscard]] Sample sample(int position, ArcPlace place, const BeamAtArc& beam) const {
         return gates_.sample(position, place, beam.gate_and_half);
     }
-    // Returns the status of all samples within the bounds if all are no echo or all are not seen,
-    // else none. The status also holds for mixtures, although they take a gate and a radial beyond
-    // the bounds.
+    // Returns the status of all samples within the bounds if all are no echo, or all are not seen;
+    // else returns none. The status also holds for mixtures, although these take a gate and a
+    // radial beyond the bounds.
     [[nodiscard]] std::optional<CellStatus> uniform_status(const PolarBounds& bounds) const;
 
   private:
     SweepGates gates_;
     SweepBeam beam_;
-    AzimuthTable azimuths_;  // of positions in gates_
+    AzimuthTable azimuths_;  // of the radials at positions in gates_
 };
 
 }  // namespace stormcellar::grid

@@ -8,11 +8,11 @@
 namespace stormcellar::grid {
 namespace {
 
-// The height of a beam that never passes over an arc. This height is so large that the line to it
-// from the previous arc is above all heights that matter.
+// Height for a beam that never passes over an arc. It is so large that the line to it from the
+// previous arc is above all heights that matter.
 constexpr float above_everything_m = 1e30F;
 
-// These return true if an edge is on the wrong side of the beam's center, or is NaN because it
+// Both return true if an edge is on the wrong side of the beam's center, or is NaN because the edge
 // never passes over the arc.
 bool is_lost_lower(double edge_m, double center_m) {
     return std::isnan(edge_m) || edge_m > center_m;
@@ -24,7 +24,7 @@ bool is_lost_upper(double edge_m, double center_m) {
 }  // namespace
 
 // Fills the table with the heights of the beam's center and edges at each step along the arc. Only
-// this loop calls the beam model; sampling interpolates in the table.
+// this loop calls the beam model. Samples are interpolated in the table.
 SweepBeam::SweepBeam(const BeamModel& beam, double elevation_deg, double half_beam_deg,
                      std::size_t table_size, const ArcTable* gates)
     : halves_per_deg_(static_cast<float>(1 / half_beam_deg)) {
@@ -46,7 +46,7 @@ SweepBeam::SweepBeam(const BeamModel& beam, double elevation_deg, double half_be
         double upper_m = upper.over(arc_m).height_m;
         const bool no_lower = is_lost_lower(lower_m, height_m);
         const bool no_upper = is_lost_upper(upper_m, height_m);
-        // Mirror a lost edge from the other edge. If both are lost, use half the beam width at this
+        // A lost edge mirrors the other edge. If both are lost, use half the beam width at this
         // range.
         if (no_upper) {
             const double free_m = range_m * half_beam_deg * degree;

@@ -1,17 +1,18 @@
-// grid/sweep/sweep_beam.h -- a table of the heights of one sweep's beam over each arc.
+// grid/sweep/sweep_beam.h -- a table of the heights of one sweep's beam over each arc from the
+// radar.
 //
 // The table has the heights of the beam's center and edges every 500 m along the arc, and is linear
 // in between.
 //
-// The beam of a radial that was measured higher or lower than its sweep is on the parabola through
-// the sweep beam's center and edges. An edge is lost if it never passes over an arc, or if it
-// passes on the wrong side of the beam's center. Ducts and the ground cause this. A lost edge is
-// replaced by the mirror image of the other edge. If both are lost, each edge is placed half a beam
-// width (at the range of the center) from the center. So a beam rises per degree as its remaining
+// If a radial was measured higher or lower than its sweep, its beam is on the parabola through the
+// center and the edges of the sweep's beam. An edge is lost if it never passes over an arc, or if
+// it passes on the wrong side of the beam's center. Ducts and the ground cause this. A lost edge is
+// replaced by the mirror image of the other edge. If both are lost, each is placed half a beam
+// width (at the range of the center) from the center. So the beam rises per degree as its remaining
 // half does. Nothing is seen between the center and a lost edge.
 //
 // Threads   Immutable; many threads may use one object.
-// Accuracy  grid/sweep/polar_sweep.h.
+// Accuracy  grid/sweep/polar_sweep.h states it.
 #pragma once
 
 #include <array>
@@ -26,12 +27,13 @@ namespace stormcellar::grid {
 // The height of a beam whose center never passes over an arc is above this.
 inline constexpr float highest_beam_m = 1e8F;
 
-// The heights of a beam's center and of its edges, half a beam width away. Lost edges are replaced.
+// The heights of a beam's center, and of its edges at half a beam width from the center. Lost edges
+// are replaced.
 struct BeamHeights {
     float center_m = 0, lower_m = 0, upper_m = 0;
 };
 
-// The entry of the table for an arc.
+// The entry of the table for one arc.
 struct BeamAtArc {
     BeamHeights heights;
     float gate_and_half = 0;  // GatePlace::number_and_half for radials of kind 0
@@ -53,7 +55,7 @@ class SweepBeam {
         return {{both[0], both[1], both[2]}, both[3]};
     }
     [[nodiscard]] BeamHeights heights(ArcPlace place) const { return at(place).heights; }
-    // Returns the heights of a beam that is higher than the sweep's elevation by `offset_deg`.
+    // Returns the heights of a beam that is `offset_deg` higher than the sweep's elevation.
     [[nodiscard]] BeamHeights heights(ArcPlace place, float offset_deg) const {
         return offset(heights(place), offset_deg);
     }
@@ -69,7 +71,7 @@ class SweepBeam {
     [[nodiscard]] float rise_m_per_deg(const BeamHeights& heights) const {
         return (heights.upper_m - heights.lower_m) / 2 * halves_per_deg_;
     }
-    // Returns the seen part of the beam: lost edges are at the center.
+    // Returns the part of the beam that is seen: a lost edge is at the center.
     [[nodiscard]] BeamHeights without_lost_edges(ArcPlace place, BeamHeights heights) const {
         if (lost_edges_.empty()) return heights;
         const unsigned lost = lost_edges_[place.index] | lost_edges_[place.index + 1];

@@ -9,8 +9,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-// A sweep is good enough with this share of the largest azimuth coverage, of the farthest range,
-// and of the longest unambiguous range.
+// A sweep is good enough if it has this share of the largest azimuth coverage, of the farthest
+// range, and of the longest unambiguous range.
 constexpr double full_enough = 0.9;
 constexpr double widest_spacing_deg = 2;
 constexpr double believable_vcp_error_deg = 0.5;
@@ -23,7 +23,7 @@ struct Candidate {
     double angle_deg = 0;  // the fixed angle if it is plausible, else the measured elevation
     double covered_deg = 0;
     double reach_m = 0;
-    double unambiguous_m = 0;  // 0: unknown, or without meaning for the moment
+    double unambiguous_m = 0;  // 0: unknown, or meaningless for the moment
 };
 
 struct Pattern {
@@ -80,9 +80,9 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Returns the median unambiguous range, by which sweeps are chosen: echo from beyond it is lost,
-// unless a surveillance sweep sorts it out. Returns 0 for Doppler moments, whose unambiguous range
-// is always short.
+// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost,
+// unless a surveillance sweep sorts it out. Returns 0 for Doppler moments, because their
+// unambiguous range is always short.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {
     if (level2::facts_of(moment).is_doppler) return 0;
@@ -152,7 +152,7 @@ std::optional<Candidate> candidate_of(const level2::Volume& volume, std::size_t 
     return candidate;
 }
 
-// Keeps the candidates whose member `respect` is near the largest.
+// Keeps the candidates whose `respect` (a member of Candidate) is near the largest.
 void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respect) {
     double largest = 0;
     for (const Candidate* candidate : group)
@@ -162,7 +162,7 @@ void keep_near_largest(std::vector<Candidate*>& group, double Candidate::*respec
     });
 }
 
-// Returns true if `later`, which is later in the file, is preferable to `other`.
+// Returns true if `later`, which comes later in the file, is better than `other`.
 bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
                std::optional<UtcTime> nearest_to) {
     if (!nearest_to) return true;
@@ -172,7 +172,7 @@ bool is_fitter(const ChosenSweep& later, const ChosenSweep& other,
            std::chrono::abs(*other.median_time - *nearest_to);
 }
 
-// Returns the best of the sweeps at one elevation, which must be in file order.
+// Returns the best of the sweeps at one elevation. They must be in the order of the file.
 Candidate take_best(std::span<Candidate> group, std::optional<UtcTime> nearest_to) {
     std::vector<Candidate*> fit;
     for (Candidate& candidate : group)
@@ -244,7 +244,7 @@ std::vector<ChosenSweep> choose_sweeps(const level2::Volume& volume, level2::Mom
             candidates.push_back(std::move(*candidate));
         }
     }
-    // Stable, so that candidates with the same angle remain in file order.
+    // This is stable, so candidates with the same angle remain in the order of the file.
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const auto& a, const auto& b) { return a.angle_deg < b.angle_deg; });
 

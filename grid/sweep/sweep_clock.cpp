@@ -7,14 +7,14 @@
 namespace stormcellar::grid {
 namespace {
 
-// Returns the clockwise turn from one azimuth to another, in [0, 360).
+// Returns the angle from one azimuth clockwise to another, in [0, 360).
 double turn(double from_deg, double to_deg) {
     double apart = to_deg - from_deg;
     if (std::abs(apart) >= 360) apart = std::fmod(apart, 360.0);
     return apart < 0 ? apart + 360 : apart;
 }
 
-// Returns how far the antenna turned from the first radial to the last: the sum of the steps. A
+// Returns how far the antenna turned from the first radial to the last, as the sum of the steps. A
 // step of more than half a turn counts as a step back.
 double turned(const level2::Sweep& sweep, const std::vector<std::uint32_t>& radials) {
     double sum = 0;
@@ -84,12 +84,12 @@ double SweepClock::seconds_of(const Turn& sweep, double azimuth_deg) {
     return sweep.start_s + turn(sweep.first_azimuth_deg, azimuth_deg) / sweep.degrees_per_s;
 }
 
-// Goes up the column and through the sweeps together. `below` and `above` are the beams around a
-// level. Below the first and above the last beam, only the nearer beam counts.
+// Goes up the column and through the sweeps at the same time. `below` and `above` are the beams
+// around a level. Below the first beam and above the last, only the nearer beam counts.
 void SweepClock::read(double azimuth_deg, double arc_m, std::span<const double> levels_m,
                       std::span<float> seconds) const {
     const BeamGeometry::Angle half_arc = beam_.half_arc_angle(arc_m);
-    std::size_t next = 0;  // the lowest sweep above the level
+    std::size_t next = 0;  // the lowest sweep that is above the level
     double below_m = 0, below_s = 0, above_m = 0, above_s = 0;
     const auto take_next = [&] {
         below_m = above_m;

@@ -8,7 +8,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// The gate number in the table for arcs over which the beam does not pass.
+// The gate number for an arc over which the beam does not pass.
 constexpr double no_gate = -1e9;
 
 ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std::size_t size) {
@@ -21,7 +21,7 @@ ArcTable gate_table(const BeamPath& path, const level2::SweepMoment& moment, std
 
 float in_unit(float value, Averaging averaging) {
     if (averaging == Averaging::in_db) return value;
-    // No radar measures values outside these limits, and a float would overflow at 385 dBZ.
+    // No radar measures values outside these limits. A float would overflow at 385 dBZ.
     return std::pow(10.0F, std::clamp(value, -300.0F, 300.0F) / 10);
 }
 
@@ -33,7 +33,7 @@ std::vector<float> value_table(const level2::SweepMoment& moment, Averaging aver
     return values;
 }
 
-// Returns how many gates of a radial really exist, even if the counts are damaged.
+// Returns how many gates a radial really has, even if its counts are damaged.
 std::int32_t gates_of(const level2::SweepMoment& moment, std::size_t radial) {
     if (radial >= moment.gate_counts.size() || moment.gate_spacing_m <= 0) return 0;
     const std::size_t held =
@@ -80,8 +80,8 @@ void SweepGates::add_kind(const level2::SweepMoment& moment, const BeamPath& pat
     kinds_.push_back(std::move(kind));
 }
 
-// Tabulates what the range of each gate adds to the detection limit, with the attenuation of the
-// first radial. detection_limit_of() corrects it for radials with another attenuation.
+// Tabulates what the range of each gate adds to the detection limit. Uses the attenuation of the
+// first radial; detection_limit_of() corrects the result for radials with another attenuation.
 void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
     const DetectionLimit at_zero_dbz{0, 0};
     kind.attenuation_db_per_m = attenuation_db_per_m;
@@ -92,7 +92,7 @@ void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
         kind.losses.push_back({static_cast<float>(at_zero_dbz.at(range_m)), attenuation_db});
     }
     // The mean over a cell with an extent sums the limits of long runs of gates. With running sums,
-    // a run costs one subtraction (add_gates()).
+    // a run costs only one subtraction (add_gates()).
     if (averaging_ == Averaging::in_db && cell_ == CellExtent::area) {
         double sum = 0;
         kind.loss_sums.push_back(sum);
@@ -107,7 +107,7 @@ void SweepGates::add_losses(float attenuation_db_per_m, Kind& kind) const {
 }
 
 // Makes a row for each used radial, with its codes, its limits and its circle. A radial belongs to
-// the first kind in which it has gates.
+// the first kind of which it has gates.
 void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
                           const PolarSweepOptions& options) {
     for (const std::uint32_t radial : chosen.radials) {
@@ -139,8 +139,8 @@ void SweepGates::add_rows(const level2::Sweep& sweep, const ChosenSweep& chosen,
     }
 }
 
-// Marks the blocks of gates that hold anything but code 0, so that uniform_status() sees at once
-// that a tile has only no echo. Does so only for the usual coding: one kind of radials, 8-bit
+// Marks the blocks of gates that hold anything but code 0. With the marks, uniform_status() sees at
+// once that a tile has only no echo. Does so only for the usual coding: one kind of radials, 8-bit
 // codes, and code 0 for no echo.
 void SweepGates::mark_blocks() {
     if (rows_.empty()) return;
@@ -162,7 +162,7 @@ void SweepGates::mark_blocks() {
 SweepGates::Between SweepGates::between(float least_arc_m, float greatest_arc_m) const {
     if (busy_.is_empty()) return {};
     const Kind& kind = kinds_[0];
-    // The tables end beyond the last gate.
+    // Make the tables end beyond the last gate.
     const auto table_end =
         static_cast<float>(ArcTable::step_m) * static_cast<float>(kind.gate.size() - 2);
     const auto number_at = [&](float arc_m) {
@@ -170,7 +170,7 @@ SweepGates::Between SweepGates::between(float least_arc_m, float greatest_arc_m)
     };
     const float nearest = number_at(least_arc_m);
     const float farthest = number_at(greatest_arc_m);
-    // The gate's number rises with the arc up to the end of the beam.
+    // The number of the gate rises with the arc, up to the end of the beam.
     if (nearest >= static_cast<float>(most_gates_)) return {CellStatus::not_seen, {}};
     const bool within = nearest >= static_cast<float>(kind.first_gate) && farthest >= nearest &&
                         farthest < static_cast<float>(fewest_gates_);
@@ -226,8 +226,8 @@ Sample SweepGates::gate(int position, std::int32_t gate) const {
     return gate_of(row, kinds_[row.kind], gate);
 }
 
-// Adds a run of gates with weight 1. The two branches below differ only in how they read a code and
-// its value, so a code of 8 bits and an equal code of 16 bits have the same result.
+// Adds a run of gates with weight 1. The two branches differ only in how they read a code and its
+// value. So equal codes of 8 and of 16 bits give the same result.
 void SweepGates::add_gates(int position, std::int32_t first, std::int32_t end,
                            Mixture& mixture) const {
     if (first >= end) return;
@@ -259,8 +259,8 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
                                  std::int32_t end, const CodeAt& code_at, const ValueOf& value_of,
                                  Mixture& mixture) const {
     const bool has_limits = blending_ == Blending::with_detection_limit;
-    // Most runs hold only code 0, no echo. An "or" over the run shows that, and the kind's running
-    // sums give the sum of the detection limits.
+    // Most runs hold only code 0, no echo. An "or" over the run shows that. Then the running sums
+    // of the kind give the sum of the detection limits.
     unsigned any = 0;
     for (std::int32_t gate = first; gate < end; ++gate)
         any |= code_at(gate);
@@ -274,7 +274,7 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
         mixture.add_counted(CellStatus::no_echo, end - first, static_cast<float>(sum), blending_);
         return;
     }
-    // Otherwise count the gates by state, and sum values and limits.
+    // Otherwise count the gates by state, and sum their values and limits.
     int valued = 0, quiet = 0, ambiguous = 0;
     float values = 0, limits = 0;
     for (std::int32_t gate = first; gate < end; ++gate) {
@@ -287,7 +287,7 @@ void SweepGates::add_plain_gates(const Row& row, const Kind& kind, std::int32_t 
             if (!has_limits) continue;
             const Kind::Loss& loss = kind.losses[static_cast<std::size_t>(gate)];
             limits += row.limit_at_1km + loss.spreading + loss.attenuation;
-        } else if (code == 2) {  // only derived moments have a state with this code
+        } else if (code == 2) {  // code 2 is a state only for derived moments
             ++ambiguous;
         }
     }

@@ -1,11 +1,11 @@
-// grid/sweep/sweep_gates.h -- the gates of one sweep of a moment, prepared for reading at arcs.
+// grid/sweep/sweep_gates.h -- the gates of one sweep of a moment, prepared to be read at arcs.
 //
-// A position is the number of a used radial, in the order of ChosenSweep::radials.
+// A "position" is the number of a used radial, in the order of ChosenSweep::radials.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).
 // Threads   Immutable; many threads may use one object. The volume must outlive it.
-// Accuracy  grid/sweep/polar_sweep.h.
+// Accuracy  grid/sweep/polar_sweep.h states it.
 #pragma once
 
 #include <cstdint>
@@ -38,16 +38,16 @@ class SweepGates {
     SweepGates(const level2::Sweep& sweep, const ChosenSweep& chosen, const BeamModel& beam,
                const PolarSweepOptions& options);
 
-    // Returns the table of gate numbers plus one half by arc, for radials of kind 0; null if the
-    // sweep has no gates of the moment.
+    // Returns the table of gate numbers plus one half, by arc, for radials of kind 0. Returns null
+    // if the sweep has no gates of the moment.
     [[nodiscard]] const ArcTable* first_table() const {
         return kinds_.empty() ? nullptr : &kinds_[0].gate;
     }
-    // Returns the nearest gate of the radial at `position`. `gate_and_half` is first_table() at
-    // `place`.
+    // Returns the nearest gate of the radial at `position`. `gate_and_half` must be the value of
+    // first_table() at `place`.
     [[nodiscard]] Sample sample(int position, ArcPlace place, float gate_and_half) const;
-    // Adds two gates of the radial, linear in range. Within half a gate beyond the first or the
-    // last gate, only that gate counts.
+    // Adds two gates of the radial, with weights linear in range. Within half a gate beyond the
+    // first or the last gate, only that gate counts.
     void add_along_radial(int position, ArcPlace place, float weight, Mixture& mixture) const;
     // A place along a radial as a gate number, which is n + 1/2 at the center of gate n.
     struct GatePlace {
@@ -56,13 +56,13 @@ class SweepGates {
         std::int32_t end = 0;
     };
     [[nodiscard]] GatePlace gate_place(int position, ArcPlace place) const;
-    // Returns how many gates the beam passes per meter of arc; 0 beyond the end of the beam. If
+    // Returns how many gates the beam passes in a meter of arc; 0 beyond the end of the beam. If
     // radials differ in gate spacing, the result is for kind 0.
     [[nodiscard]] float gates_per_m_of_arc(ArcPlace place) const;
-    // Returns a gate from GatePlace::first to before GatePlace::end.
+    // Returns a gate. Its number must be from GatePlace::first to before GatePlace::end.
     [[nodiscard]] Sample gate(int position, std::int32_t gate) const;
-    // Adds the gates from `first` to before `end`, each with weight 1; none if `end` is not above
-    // `first`. The gates must exist, as for gate().
+    // Adds the gates from `first` to before `end`, each with weight 1. Adds nothing if `end` is not
+    // above `first`. The gates must exist, as for gate().
     void add_gates(int position, std::int32_t first, std::int32_t end, Mixture& mixture) const;
 
     // Returns the measured elevation of the radial minus the elevation of the sweep.
@@ -71,46 +71,46 @@ class SweepGates {
     }
     [[nodiscard]] Blending blending() const { return blending_; }
     [[nodiscard]] std::size_t radial_count() const { return rows_.size(); }
-    // Returns the index in Sweep::radials.
+    // Returns the index of the radial in Sweep::radials.
     [[nodiscard]] std::uint32_t radial_index(int position) const {
         return rows_[static_cast<std::size_t>(position)].radial;
     }
 
-    // Returns the gates of the radial; null if it has none of the moment.
+    // Returns the moment of the radial; null if the radial has no gates of it.
     [[nodiscard]] const level2::SweepMoment* moment_of(int position) const {
         const Row& row = rows_[static_cast<std::size_t>(position)];
         return row.gate_count > 0 ? kinds_[row.kind].moment : nullptr;
     }
 
     // Returns the status of all gates of these radials between two arcs, and of one more gate on
-    // each side, if all are no echo or all are not seen; else none. `visit_radials(visit)` must
-    // call visit(position) for each radial, with AzimuthTable::none for a gap, until visit returns
-    // false.
+    // each side, if all are no echo or all are not seen; else returns none. visit_radials(visit)
+    // must call visit(position) for each radial, and with AzimuthTable::none for a gap, until visit
+    // returns false.
     template <class VisitRadials>
     [[nodiscard]] std::optional<CellStatus> uniform_status(float least_arc_m, float greatest_arc_m,
                                                            const VisitRadials& visit_radials) const;
 
   private:
-    // The radials of a sweep with the same gate geometry and coding.
+    // Radials of a sweep that have the same gate geometry and coding.
     struct Kind {
         const level2::SweepMoment* moment = nullptr;
-        ArcTable gate;  // gate number plus one half, so that its floor is the nearest gate
+        ArcTable gate;                // gate number plus one half; its floor is the nearest gate
         std::int32_t first_gate = 0;  // the first gate at a range of 0 or more
         std::uint16_t first_valid_code = 2;
         std::vector<float> values;  // by code; only for 8-bit codes
-        // By gate, for moments with a detection limit: the dB that the range of the gate adds to
-        // the limit, or the factor by which the range multiplies the limit in Z.
+        // For each gate, if the moment has a detection limit: the dB that the gate's range adds to
+        // the limit, or the factor by which it multiplies the limit in Z.
         struct Loss {
             float spreading;    // 20 log10 of the range in km, or the squared range for Z
             float attenuation;  // for radials with the kind's attenuation_db_per_m
         };
         std::vector<Loss> losses;
-        // sums of spreading + attenuation over all earlier gates; only for cells with an extent
+        // Sums of spreading + attenuation over all earlier gates; only for cells with an extent.
         std::vector<double> loss_sums;
         float attenuation_db_per_m = 0;
     };
     struct Row {
-        // the codes of this radial if they have 8 bits, else null
+        // The codes of this radial if they have 8 bits, else null.
         const std::uint8_t* codes8 = nullptr;
         std::uint32_t kind = 0;
         std::uint32_t radial = 0;
@@ -119,7 +119,8 @@ class SweepGates {
         float attenuation_db_per_m = 0;
         float half_period = 0;
         float elevation_offset_deg = 0;
-        // the limit is in dB and the radial's attenuation is the kind's, so Kind::losses apply
+        // True if the limit is in dB and the radial's attenuation is the kind's, so that
+        // Kind::losses apply.
         bool has_simple_limit = false;
     };
 
@@ -139,8 +140,8 @@ class SweepGates {
     [[nodiscard]] Sample wide_gate_of(const Row& row, const Kind& kind, std::int32_t gate) const;
     [[nodiscard]] Sample without_value(const Row& row, const Kind& kind, std::int32_t gate,
                                        std::uint16_t code) const;
-    // Adds gates that are values, no echo or range folded. Detection limits, if any, must be
-    // simple.
+    // Adds gates whose status is a value, no echo or range folded. Detection limits, if any, must
+    // be simple (has_simple_limit).
     template <class CodeAt, class ValueOf>
     void add_plain_gates(const Row& row, const Kind& kind, std::int32_t first, std::int32_t end,
                          const CodeAt& code_at, const ValueOf& value_of, Mixture& mixture) const;

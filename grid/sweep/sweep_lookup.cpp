@@ -15,9 +15,9 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double farthest_place_m = 1e6;  // no radar sees farther; limits the tables
+constexpr double farthest_place_m = 1e6;  // no radar sees farther; bounds the size of tables
 
-// Returns the numbers of the sweeps that hold the moment, as text for a message.
+// Returns the numbers of the sweeps that hold the moment, as a text for a message.
 std::string numbers_of_sweeps(const level2::Volume& volume, level2::Moment moment) {
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
@@ -80,7 +80,7 @@ struct SweepLookup::Prepared {
     SweepFacts facts;
     BeamGeometry beam;
     PolarSweep polar;
-    float end_m;  // end of the tables
+    float end_m;  // where the tables end
 
     [[nodiscard]] const level2::Sweep& sweep() const { return volume->sweeps[chosen.sweep_index]; }
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
 
-// Narrows [from, to] to the part where |at_zero + slope * t| is at most one half.
+// Narrows [from, to] to the interval in which |at_zero + slope * t| is at most one half.
 void narrow(float at_zero, float slope, float& from, float& to) {
     if (slope == 0) {
         if (!(std::abs(at_zero) <= 0.5F)) to = from - 1;
@@ -50,13 +50,13 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
         int position;
         float weight;
     };
-    // Radials are at least 0.2 degrees apart. If a damaged sweep has more within reach, the rest
-    // does not count.
+    // Radials are at least 0.2 degrees apart, so more than this within reach are damage and do not
+    // count.
     std::array<Weighted, 32> radials{};
     std::size_t count = 0;
     float total = 0;
-    // The pattern depends only on the azimuth, so evaluate it once for each radial; scale the
-    // weights to a sum of 1 below.
+    // The pattern depends only on the azimuth, so evaluate it once for each radial. The weights are
+    // scaled to a sum of 1 below.
     sweep.azimuths().visit(azimuth_deg, width_deg, [&](int position, float offset_deg) {
         const float weight = beam_pattern(offset_deg, width_deg);
         if (count == radials.size() || !(weight > 0 || count == 0)) return;
@@ -65,7 +65,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     });
     if (count == 0) return Mixture::of_unseen();
     Mixture mixture;
-    // If the pattern is 0 at all radials, only the first counts, which is the nearest.
+    // If the pattern is 0 at all radials, only the first one counts, which is the nearest.
     if (!(total > 0)) {
         sweep.gates().add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
@@ -77,7 +77,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
 }
 
 Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPlace place) {
-    // The outline is a parallelogram within a circle. As the site sees it, the circle covers the
+    // The outline is a parallelogram inside a circle. Seen from the site, the circle covers the
     // azimuths within asin(radius / arc) of its center, or all azimuths if the site is inside it.
     const float reach_deg = footprint.arc_m > footprint.radius_m
                                 ? std::asin(footprint.radius_m / footprint.arc_m) / degree
@@ -85,7 +85,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
     const Blending blending = sweep.gates().blending();
     Mixture gates;
     Mixture beyond;
-    // If values wrap, take differences from the gate at the center.
+    // For values that wrap, take differences from the gate at the center.
     if (is_circular(blending)) {
         const Sample center = sweep.sample(footprint.azimuth_deg, place);
         if (center.status == CellStatus::value) gates.refer_to(center);
@@ -97,8 +97,8 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (at.end == 0) return;
         const float sine = std::sin(turn_deg * degree);
         const float cosine = std::cos(turn_deg * degree);
-        // Along this radial, the coordinates u and v of the outline are linear in the arc, so each
-        // of the conditions |u| <= 1/2 and |v| <= 1/2 limits the arcs to an interval.
+        // Along this radial, the coordinates u and v of the outline are linear in the arc. So |u|
+        // <= 1/2 and |v| <= 1/2 each limit the arcs to an interval.
         float from_m = std::max(0.0F, footprint.arc_m - footprint.radius_m);
         float to_m = footprint.arc_m + footprint.radius_m;
         narrow(-footprint.u_along * footprint.arc_m,
@@ -106,7 +106,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         narrow(-footprint.v_along * footprint.arc_m,
                footprint.v_along * cosine + footprint.v_across * sine, from_m, to_m);
         if (!(from_m <= to_m)) return;
-        // The interval of arcs becomes a run of gates; gates beyond the last count as not seen.
+        // Turn the interval of arcs into a run of gates. Gates beyond the last count as not seen.
         const float center = at.number_and_half - 0.5F;
         const float low = center + (from_m - footprint.arc_m) * gates_a_m_of_arc;
         const float high = center + (to_m - footprint.arc_m) * gates_a_m_of_arc;
@@ -116,7 +116,7 @@ Mixture gates_inside(const PolarSweep& sweep, const Footprint& footprint, ArcPla
         if (last >= at.end)
             beyond.add_unseen(static_cast<float>(last - std::max(first, at.end) + 1));
     });
-    // Scale the weights to 1. The part of the circle inside azimuth gaps is not seen.
+    // Scale the weights to a sum of 1. The part of the circle that is in azimuth gaps is not seen.
     const float count = gates.weight() + beyond.weight();
     if (count == 0) return {};
     const bool gaps = sweep.azimuths().has_gaps() && reach_deg < 180;

@@ -7,11 +7,11 @@
 namespace stormcellar::grid {
 namespace {
 
-constexpr double farthest_arc_m = 1e6;  // no radar sees farther; limits the tables
+constexpr double farthest_arc_m = 1e6;  // no radar sees farther; bounds the size of tables
 
 // Returns true if every radial was measured higher than all radials of lower sweeps.
 bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen) {
-    float highest_deg = -90;  // of the lower sweeps
+    float highest_deg = -90;  // highest radial of the lower sweeps
     for (const ChosenSweep& sweep : chosen) {
         const float floor_deg = highest_deg;
         for (const std::uint32_t radial : sweep.radials) {
@@ -24,8 +24,8 @@ bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& 
     return true;
 }
 
-// Returns true if the beams are in the order of their elevations, and about as far apart as each
-// rises with elevation. Ducts make beams cross, or make them wider or narrower.
+// Returns true if the beams are in the order of their elevations, and about as far apart as their
+// elevations imply. Ducts make beams cross, or make them wider or narrower.
 bool are_beams_in_order(const SweepStack& stack) {
     constexpr float even = 1.5F;
     for (std::size_t i = 1; i + 1 < stack.table_size; ++i) {
