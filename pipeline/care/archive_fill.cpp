@@ -17,11 +17,11 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Known volumes take 0.1 to 0.33 bytes for each cell of the grid. Volumes with much echo take more,
-// and a small grid may be full of echo.
+// The grids of known volumes take 0.1 to 0.33 bytes for each cell. Volumes with much echo take
+// more, and a small grid may be full of echo.
 constexpr double bytes_a_cell = 0.5;
 constexpr double cells_of_small_grid = 2e6;
-// A frame uses no volumes farther from it than this.
+// A frame uses only volumes that are at most this far from it.
 constexpr std::chrono::minutes farthest_frame{30};
 constexpr double bytes_a_file = 200e3;  // tables, and bricks that are not full
 
@@ -50,7 +50,7 @@ class Ledger {
         const MutexLock lock(mutex_);
         return !outcome_;
     }
-    // Call it after all workers have ended.
+    // Returns the first error. Call it after all workers have ended.
     [[nodiscard]] Status outcome() {
         const MutexLock lock(mutex_);
         return std::move(outcome_);
@@ -68,14 +68,14 @@ class Ledger {
     Status outcome_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// Returns the key of a volume's files: the path, or, for a volume of chunks, a key that all of them
-// share.
+// Returns a key for the files of a volume: the path, or, if the volume is in chunks, a key that all
+// of its chunks share.
 std::string key_of(const std::filesystem::path& path) {
     const auto chunk = ChunkPath::of(path);
     return chunk ? chunk->key : path.native();
 }
 
-// Checks whether files are the cataloged files of these volumes.
+// Checks that files are still the files of these volumes that the catalog knows.
 class CatalogedFiles {
   public:
     CatalogedFiles(const catalog::CatalogReader& catalog, const std::vector<ArchiveVolume>& volumes)
@@ -102,7 +102,7 @@ class CatalogedFiles {
     std::map<std::string, std::string> stations_;
 };
 
-// Returns true if the error concerns the file, and not the cache.
+// Returns true if the error concerns only the file, so that other files may go on.
 bool is_of_file(const Error& error) {
     const bool may_not_read =
         error.code == ErrorCode::permission && error.cause() == Cause::configuration;
@@ -176,7 +176,7 @@ std::uint64_t bytes_of_grids(const ArchiveOptions& options, std::size_t volumes,
     if (options.domain) {
         const grid::GridSpec& spec = options.domain->spec;
         const auto all = static_cast<double>(spec.cell_count());
-        // Count only the share of the domain that one site reaches.
+        // Count only the part of the domain that one site reaches.
         const double side = 2 * grid::site_reach_m;
         const double reached = std::min(1.0, side / (spec.nx * spec.cell_width_m())) *
                                std::min(1.0, side / (spec.ny * spec.cell_height_m()));
@@ -206,7 +206,7 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
 }
 
 // Returns true if the cache has the grid of the volume. A grid remains valid after its raw file was
-// deleted. A raw file that was written after the grid, by their modification times, counts as
+// deleted. But if the raw file's modification time is later than the grid's, the raw file is
 // another file.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
@@ -252,7 +252,7 @@ Result<ArchiveFill::DueFrames> ArchiveFill::due(const std::vector<UtcTime>& inst
     return found;
 }
 
-// Returns the drop directory if all files are below it, or else "/".
+// Returns the drop directory if all files are below it, else "/".
 Result<std::filesystem::path> ArchiveFill::root_of(
     const std::vector<ArchiveVolume>& volumes) const {
     std::filesystem::path root = "/";

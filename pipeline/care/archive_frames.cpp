@@ -12,10 +12,10 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A worker takes this many consecutive instants, so that it can reuse what it has just read.
+// A worker takes this many consecutive instants, because it can then reuse what it has just read.
 constexpr std::size_t instants_a_turn = 4;
 
-// The state in which the frame of one instant was found, and the problems of making it.
+// The state in which the frame of an instant was found, and the problems of making it.
 struct FrameOutcome {
     FrameStanding standing = FrameStanding::not_due;  // before this run
     std::vector<std::string> problems;
@@ -46,7 +46,7 @@ class FrameCrew {
     void add_to(FillReport& report) {
         const MutexLock lock(mutex_);
         for (std::size_t i = 0; i < outcomes_.size(); ++i) {
-            if (!outcomes_[i]) continue;  // after a stop or an error
+            if (!outcomes_[i]) continue;  // the frame was not examined, after a stop or an error
             const FrameOutcome& outcome = *outcomes_[i];
             if (outcome.standing == FrameStanding::to_make) ++report.frames_made;
             if (outcome.standing == FrameStanding::current) ++report.frames_found;

@@ -1,13 +1,14 @@
 // pipeline/care/archive_frames.h -- makes the frames of a domain from the partials in a cache.
 //
-// Each frame is made once, from the partials around it (pipeline/mosaic/mosaic_maker.h). Workers
-// make several frames at a time, one frame each, because several threads for one frame would wait
-// for each other more. The bytes of a frame do not depend on who makes it or when.
+// Each frame is made once, from the partials (grids of single sites) around it
+// (pipeline/mosaic/mosaic_maker.h). Workers make several frames at a time, one frame each, because
+// several threads at one frame would wait for each other more. The bytes of a frame do not depend
+// on who makes it or when.
 //
 // Memory    Each worker keeps geometries and instants of its own: some 400 MiB for a large domain.
 // Threads   One thread at a time for each domain and moment of a store. `progress` is called from
 //           the workers, one at a time.
-// Errors    Those of the store, and of making a frame.
+// Errors    Those of the store and of making a frame.
 #pragma once
 
 #include <atomic>
@@ -21,8 +22,8 @@
 namespace stormcellar::pipeline {
 
 // Makes the frames at `instants` that are due and are missing or outdated. Adds to the report how
-// many frames were made and found, the instants of all these, and what the new frames leave out.
-// When `stop` is set, no further frame begins.
+// many frames were made and how many found, their instants, and what the new frames leave out. Once
+// `stop` is set, begins no further frame.
 [[nodiscard]] Status make_frames(cache::StoreWriter& store, const Domain& domain,
                                  level2::Moment moment, const std::vector<UtcTime>& instants,
                                  int threads, const FillProgress& progress,

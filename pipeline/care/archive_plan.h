@@ -1,5 +1,5 @@
 // pipeline/care/archive_plan.h -- describes which grids to make from the raw files of an archive,
-// and where to keep them (pipeline/care/archive_fill.h makes them).
+// and where to keep them. pipeline/care/archive_fill.h makes them.
 //
 // Thread contract: functions without state; they read the catalog and directories.
 #pragma once
@@ -20,21 +20,21 @@ namespace stormcellar::pipeline {
 
 struct ArchivePlan {
     std::vector<std::string> stations;
-    std::optional<Domain> mosaic;  // none: the station's own grid
+    std::optional<Domain> mosaic;  // none: a station's own grids
     ArchiveOptions fill;
     std::filesystem::path cache;
     std::vector<LeftOut> left_out;  // stations without a known position
 };
 
-// Returns the positions of the stations (place_of_station()). Adds each station without a position
-// to `left_out`, with the reason. Skips empty names.
+// Returns the positions of the stations (place_of_station()). Adds stations without a position to
+// `left_out`, with the reason. Skips empty names.
 [[nodiscard]] std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
                                                        const std::vector<std::string>& stations,
                                                        std::vector<LeftOut>& left_out);
 
 // Returns the directory of all private caches: $XDG_CACHE_HOME/stormcellar/loops, or
 // ~/.cache/stormcellar/loops if XDG_CACHE_HOME is not an absolute path. Errors: bad_argument if
-// HOME is not absolute, either.
+// HOME is not an absolute path, either.
 [[nodiscard]] Result<std::filesystem::path> loops_directory();
 
 // Returns a directory in loops_directory() for the plan's grids. Its name contains a hash of
@@ -44,13 +44,14 @@ struct ArchivePlan {
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);
 
-// Checks that grids in this directory would not be mixed with other files, for example those of a
-// drop directory. A cache holds only directories of domains, which hold only directories of
-// moments; names that begin with '.' are ignored. Errors: bad_argument for a directory that holds
-// anything else. A directory that does not exist or cannot be read passes.
+// Checks that grids in this directory would not get mixed with other files, for example with the
+// files of a drop directory. A cache holds only directories of domains, and these hold only
+// directories of moments. Names that begin with '.' are ignored. Errors: bad_argument if the
+// directory holds anything else. A directory that does not exist or cannot be read passes the
+// check.
 [[nodiscard]] Status check_cache_directory(const std::filesystem::path& directory);
 
-// Returns the grids of the cache at these times. Errors: those of StoreReader::list().
+// Returns the grids that the cache has at these times. Errors: those of StoreReader::list().
 [[nodiscard]] Result<std::vector<cache::StoreEntry>> entries_at(const cache::StoreReader& store,
                                                                 const std::string& domain,
                                                                 level2::Moment moment,

@@ -25,7 +25,7 @@ constexpr std::chrono::minutes most_ahead{10};
 
 struct Finding {
     Error error;
-    bool opened = false;  // true: the file opened, and the error is in its contents
+    bool opened = false;  // the file opened, so the error is in its contents
 };
 
 std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
@@ -36,9 +36,9 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
     return std::nullopt;
 }
 
-// Returns true if the grid is damaged. A failed read of an open file counts only if the grid has a
-// source from which it can be made again. A failed open may mean that the system has no descriptors
-// left.
+// Returns true if the grid is damaged. If reading an open file failed, the grid counts as damaged
+// only if it can be made again from a source. If opening failed, it does not count, because the
+// system may have no descriptors left.
 bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
@@ -65,8 +65,9 @@ bool may_have_a_grid(const CatalogEntry& entry) {
            entry.volume.start_time && entry.volume.radial_count > 0;
 }
 
-// Returns the file from which the volume's grid must be made. Prefers a complete file, then the
-// later end, then the larger hash. The age of files does not matter.
+// Returns the file from which the grid of a volume must be made. Prefers a complete file, then the
+// file with the later end, then the file with the larger hash. The age of the files does not
+// matter.
 std::optional<fs::path> best_of(const catalog::CatalogReader& catalog,
                                 std::span<const CatalogEntry> of_one_volume) {
     using Rank = std::tuple<bool, std::optional<UtcTime>, std::uint64_t>;
@@ -109,7 +110,7 @@ std::string CacheMender::why_not_again(const std::string& station, UtcTime time)
 
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
-    // The grid is sound, or was evicted in the meantime.
+    // If there is no error, the grid is sound. If it is gone, it was evicted in the meantime.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
     const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {
@@ -138,8 +139,8 @@ Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth d
                                   level2::moment_name(entry.moment), entry.domain)};
 }
 
-// Makes the grids from a raw file. The contents are compared, because another file with the same
-// size and time may be in the place of the cataloged one.
+// Makes the grids from a raw file. Compares the contents, because a file with the same size and
+// time may have replaced the cataloged file.
 Result<IngestOutcome> CacheMender::make_from(const fs::path& raw, const std::string& station) {
     return ingestor_.ingest_again(
         raw,
@@ -183,8 +184,8 @@ Result<MendedGrid> CacheMender::mend_from_raw(const cache::StoreEntry& entry,
     return mended;
 }
 
-// Makes the frame again. The new frame replaces the damaged frame at once and continues its count
-// of revisions.
+// Makes the frame again. The new frame replaces the damaged one at once, and continues its count of
+// revisions.
 Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const Error& damage) {
     MendedGrid mended{GridCondition::made_again, damage.message, {}, {}};
     std::vector<std::string> problems;
@@ -195,8 +196,8 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
         if (!problems.empty()) mended.from += fmt::format(" (left out: {})", joined(problems));
         return mended;
     }
-    // The domain has no such frame or no partial for it, or its partials contradict one another.
-    // Another try would fail, too.
+    // Another try would fail, too, if the domain has no such frame, no partial is near it, or its
+    // partials contradict each other.
     const bool never_made = !made && (made.error().code == ErrorCode::not_found ||
                                       made.error().code == ErrorCode::bad_argument);
     if (!made && !never_made) return pass_on(made);
@@ -208,8 +209,8 @@ Result<MendedGrid> CacheMender::mend_frame(const cache::StoreEntry& entry, const
     return mended;
 }
 
-// Returns the series of grids that the ingestor makes of this station's volumes. Partials are
-// included only if the station is known to reach the domain.
+// Returns the series of grids that the ingestor makes of this station's volumes. Includes partials
+// only if it is known that the station reaches the domain.
 std::vector<CacheMender::Series> CacheMender::series_of(const std::string& station) const {
     std::vector<Series> all;
     for (const level2::Moment moment : moments_)
@@ -247,7 +248,7 @@ Result<std::vector<MissingGrid>> CacheMender::missing_of(const std::string& stat
                                                          std::chrono::milliseconds newest) {
     std::vector<MissingGrid> missing;
     auto entries = catalog_.list(station, {{}, now_utc() + most_ahead, false});
-    // Skip a station whose database cannot be read; the catalog reports it (troubles()).
+    // Skip a station whose database cannot be read, because the catalog reports it (troubles()).
     if (!entries || entries->empty()) return missing;
     const auto standing = standing_of(station, *entries->back().volume.start_time - newest);
     if (!standing) return pass_on(standing);

@@ -1,18 +1,18 @@
-// pipeline/care/mend_cache.h -- makes grids again that are damaged or missing.
+// pipeline/care/mend_cache.h -- makes damaged and missing grids again.
 //
-// A grid is damaged if another program truncated or altered it, or if the disk cannot return it. A
-// site's own grid, or a partial of a mosaic (NAME.ICAO), is removed and made again from the raw
-// file, if that still exists as cataloged. A frame of a mosaic is made again from its partials. A
-// damaged grid that cannot be made again is removed, unless a failing disk is the only sign of
-// damage.
+// A grid is damaged if another program truncated or altered it, or if the disk cannot return it. If
+// the grid is a site's own grid or a partial of a mosaic (NAME.ICAO), it is removed and made again
+// from the raw file, if the raw file is still as it was cataloged. A frame of a mosaic is made
+// again from its partials. A damaged grid that cannot be made again is removed, unless a failing
+// disk is the only sign of damage.
 //
-// A missing grid is made again only if its volume is within `newest` of the station's latest volume
-// and newer than the oldest grid in the domain. If the domain has no grid, only the first condition
-// applies. Volumes more than 10 minutes in the future do not count. So evicted grids, which are the
-// oldest, are never made again, but an emptied cache is filled. A grid that could not be made is
-// not tried again while the object exists.
+// A missing grid is made again only if its volume is at most `newest` older than the station's
+// latest volume, and newer than the oldest grid in the domain. If the domain has no grid, only the
+// first condition applies. Volumes more than 10 minutes in the future do not count. So evicted
+// grids, which are the oldest, are never made again, but an emptied cache is filled. If a grid
+// could not be made, this object does not try it again.
 //
-// Threads   One thread at a time, within the rules of the catalog, the store and the ingestor.
+// Threads   One thread at a time. The rules of the catalog, the store and the ingestor also apply.
 #pragma once
 
 #include <chrono>
@@ -35,21 +35,21 @@ namespace stormcellar::pipeline {
 struct MissingGrid {
     std::string station;
     UtcTime time;
-    std::filesystem::path raw;  // a complete file of this volume, else the one with the latest end
+    std::filesystem::path raw;  // a complete file of the volume, else the one with the latest end
     std::vector<cache::GridName> names;  // the missing grids
 };
 
 enum class GridCondition {
     sound,
-    made_again,  // was damaged, and exists again
+    made_again,  // was damaged, and was made again
     dropped,     // was damaged, and cannot be made again
     left_alone,  // cannot be judged: no permission, no descriptors, or a later version
 };
 struct MendedGrid {
     GridCondition condition = GridCondition::sound;
-    std::string reason;   // the damage, with the path first; empty: sound
+    std::string reason;   // what is damaged, beginning with the path; empty: sound
     std::string from;     // made_again: the raw file, or "the partials of KBGM, KOKX"
-    std::string why_not;  // dropped: why it was not made again
+    std::string why_not;  // if dropped: why it was not made again
 };
 
 enum class MendDepth {
@@ -60,7 +60,7 @@ enum class MendDepth {
 class CacheMender {
   public:
     // The catalog, the store and the ingestor must outlive the object. `moments` are the moments of
-    // the sites' own grids that the ingestor makes.
+    // which the ingestor makes the sites' own grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, std::vector<level2::Moment> moments);
 
@@ -68,9 +68,10 @@ class CacheMender {
     // removed, or the catalog or the cache cannot be read or written.
     Result<MendedGrid> mend(const cache::StoreEntry& entry, MendDepth depth);
 
-    // Returns missing grids, newest first. A station whose database or grids cannot be read is left
-    // out. `step` is called after each station, so that the caller can see progress. Errors: the
-    // catalog's stations cannot be listed, or is_shortage() while a station's grids are listed.
+    // Returns missing grids, newest first. Leaves out stations whose database or grids cannot be
+    // read. Calls `step` after each station, so that the caller sees progress. Errors: the stations
+    // of the catalog cannot be listed; or listing a station's grids fails with a shortage
+    // (is_shortage()).
     Result<std::vector<MissingGrid>> missing(std::chrono::milliseconds newest,
                                              const std::function<void()>& step = {});
     // Makes the missing grids of a volume. Errors: corrupt if the raw file is not the cataloged
@@ -80,12 +81,12 @@ class CacheMender {
     // Returns missing frames of mosaics, newest first. Call it after the partials were made.
     // Errors: the cache cannot be read.
     Result<std::vector<cache::GridName>> missing_frames(std::chrono::milliseconds newest);
-    // Makes a frame and returns its source, as in MendedGrid::from. Returns none if no domain has
-    // the frame, if no partials are near it, or if the cache's limits do not keep it.
+    // Makes a frame. Returns its source, as in MendedGrid::from. Returns none if no domain has the
+    // frame, if no partials are near it, or if the cache's budgets do not keep it.
     Result<std::optional<std::string>> make(const cache::GridName& frame);
 
   private:
-    // One kind of grid that a station's volumes have.
+    // A kind of grid that is made of a station's volumes.
     struct Series {
         std::string domain;
         level2::Moment moment;
@@ -96,7 +97,8 @@ class CacheMender {
         UtcTime from;  // older volumes count as evicted
     };
     Result<std::optional<std::filesystem::path>> raw_of(const std::string& station, UtcTime time);
-    // Returns why a grid of the station's volume at this time has no file to be made from.
+    // Returns the reason why there is no file from which the grid of the station's volume at this
+    // time can be made.
     [[nodiscard]] std::string why_not_again(const std::string& station, UtcTime time);
     Result<IngestOutcome> make_from(const std::filesystem::path& raw, const std::string& station);
     Result<MendedGrid> mend_from_raw(const cache::StoreEntry& entry, const std::string& station,

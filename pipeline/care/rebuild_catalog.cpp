@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// the same depth as the daemon
+// Directories are searched to this depth, as the daemon does.
 constexpr int max_depth = 16;
 
-// Returns true if a file may hold volumes of the station: always, unless its name or its
-// directory's name is another station's.
+// Returns true if a file may hold volumes of the station. It may, unless its name or the name of
+// its directory is another station's.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
     const std::string by_name = station_of_file_name(path);
@@ -28,7 +28,7 @@ bool may_be_of(const fs::path& path, const std::string& station) {
     return !is_icao(directory) || directory == station;
 }
 
-// Returns the regular files below a directory, sorted. Directories that cannot be read become
+// Returns the regular files below a directory, sorted. Notes directories that cannot be read as
 // problems.
 Result<std::vector<fs::path>> files_below(const fs::path& directory, RebuildReport& report) {
     std::vector<fs::path> files;
@@ -70,7 +70,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
             ++report.rejected;
             break;
         case IngestResult::vanished:
-        case IngestResult::incomplete:  // being written now: the daemon will ingest it
+        case IngestResult::incomplete:  // the file is being written; the daemon will ingest it
             break;
         default:
             ++report.registered;
@@ -81,7 +81,7 @@ void count(const IngestOutcome& outcome, RebuildReport& report) {
 
 Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     RebuildReport report;
-    // Rows are found by their paths, and the daemon stores absolute paths without links.
+    // Rows are found by their paths. The daemon stores absolute paths in which links are resolved.
     std::error_code error;
     const fs::path drop = fs::canonical(options.drop, error);
     if (error) {
@@ -93,7 +93,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
     auto catalog = catalog::CatalogWriter::open(options.catalog, writing);
     if (!catalog) return pass_on(catalog);
     if (options.station.empty()) {
-        // A database that cannot be used must not keep the others from being examined.
+        // One database that cannot be used must not keep the others from being examined.
         (void)catalog->examine_all();
     } else if (Status examined = catalog->examine(options.station); !examined) {
         return pass_on(examined);
@@ -114,7 +114,7 @@ Result<RebuildReport> rebuild_catalog(const RebuildOptions& options) {
         if (outcome) {
             count(*outcome, report);
         } else if (outcome.error().code == ErrorCode::no_space) {
-            return pass_on(outcome);  // it would also fail for the next file
+            return pass_on(outcome);  // such an error would also occur for the next file
         } else if (!outcome.error().message.starts_with(options.catalog.native())) {
             report.problems.push_back(outcome.error());
         }

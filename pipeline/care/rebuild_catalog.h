@@ -1,11 +1,11 @@
 // pipeline/care/rebuild_catalog.h -- makes the catalog again from the files that exist.
 //
 // Damaged databases are set aside and repaired, which keeps the rows of files that are gone
-// (stormcellar/catalog/repair.h). Then every file below the drop directory that has changed since
-// it was cataloged, or was never cataloged, is decoded and registered. Rows of files that do not
-// exist become `gone`. Sound databases keep their rows, so rebuilding a sound catalog changes
-// nothing. Nothing is gridded. Nothing else may write the catalog meanwhile, so hold the lock of
-// the state directory (instance_lock.h).
+// (stormcellar/catalog/repair.h). Then every file below the drop directory is decoded and
+// registered, if it has changed since it was cataloged or was never cataloged. Rows of files that
+// do not exist become `gone`. Sound databases keep their rows, so rebuilding a sound catalog
+// changes nothing. No grids are made. Nothing else may write the catalog meanwhile, so hold the
+// lock of the state directory (instance_lock.h).
 //
 // Threads   A function without state. `progress` is called from the calling thread.
 #pragma once
@@ -26,13 +26,13 @@ namespace stormcellar::pipeline {
 struct RebuildOptions {
     std::filesystem::path catalog;
     std::filesystem::path drop;  // symbolic links below it are not followed
-    // Absolute paths, without links, of the files below `drop` that are examined. Empty: all files
-    // below `drop`.
+    // The files below `drop` to examine, as absolute paths in which links are resolved. Empty: all
+    // files below `drop`.
     std::vector<std::filesystem::path> files;
-    // Only this station's database is repaired, and only files that may belong to it are examined.
-    // Empty: all stations.
+    // If set, only the database of this station is repaired, and only files that may be this
+    // station's are examined. Empty: all stations.
     std::string station;
-    std::shared_ptr<StationRule> stations;  // stations that have a database; null: every ICAO
+    std::shared_ptr<StationRule> stations;  // stations that may have a database; null: every ICAO
     int threads = 1;                        // for decoding
     std::function<void(std::size_t done, std::size_t all)> progress;
 };
@@ -41,16 +41,17 @@ struct RebuildReport {
     std::vector<catalog::Repair> repairs;
     std::size_t files = 0;       // files examined
     std::size_t unchanged = 0;   // files that have not changed since they were cataloged
-    std::size_t registered = 0;  // decoded, whole or in part
-    std::size_t rejected = 0;    // not decodable, and registered as such
-    int gone = 0;                // rows of files that no longer exist
+    std::size_t registered = 0;  // files decoded, in whole or in part
+    std::size_t rejected = 0;    // files registered as not decodable
+    int gone = 0;                // rows whose files no longer exist
     // Files and directories that could not be read, and databases that could not be used.
     std::vector<Error> problems;
 };
 
-// Rebuilds the catalog, and records the drop directory in it. Errors: the catalog's directory or
-// the only requested station's database cannot be used, the disk is full, or the drop directory
-// cannot be read. Work done before an error stays, and a second call continues from there.
+// Rebuilds the catalog, and records the drop directory in it. Errors: the catalog's directory, or
+// the database of the only requested station, cannot be used; the disk is full; or the drop
+// directory cannot be read. Work done before an error stays, and a second call continues from
+// there.
 [[nodiscard]] Result<RebuildReport> rebuild_catalog(const RebuildOptions& options);
 
 }  // namespace stormcellar::pipeline

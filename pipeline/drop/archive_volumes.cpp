@@ -11,7 +11,7 @@ namespace {
 
 using catalog::CatalogEntry;
 
-// Returns true if `a` is the better file of the same volume.
+// Returns true if `a` is the better of two files that have the same volume.
 bool is_better(const CatalogEntry& a, const CatalogEntry& b) {
     const auto rank = [](const CatalogEntry& entry) {
         return std::tuple(entry.state != catalog::FileState::gone, entry.volume.complete,
@@ -44,7 +44,7 @@ std::vector<ArchiveVolume> each_once(const std::string& station,
     return volumes;
 }
 
-// Keeps the volumes of one station that belong to the range, ordered by start.
+// Keeps only the volumes of one station that belong to the range, ordered by start.
 void keep_taken(const ArchiveRange& range, std::vector<ArchiveVolume>& volumes) {
     const auto first = std::find_if(volumes.begin(), volumes.end(), [&](const ArchiveVolume& one) {
         return one.end >= range.from;

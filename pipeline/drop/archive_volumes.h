@@ -1,9 +1,9 @@
 // pipeline/drop/archive_volumes.h -- finds the raw files of a catalog that belong to a time range.
 //
-// For each station these are the volumes that overlap the range and, on request, its neighbors: the
-// last volume before the range and the first volume after it, if they are close enough for a frame
-// between volumes. If several files have a volume, one is used. Existing files are preferred, among
-// them complete ones, and among these the one with the highest generation.
+// For each station these are the volumes that overlap the range. On request, they include its
+// neighbors, which are the last volume before the range and the first volume after it, if they are
+// close enough for a frame between volumes. If several files have the same volume, one file is
+// used: existing files are preferred, then complete ones, then the one with the highest generation.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once
@@ -26,13 +26,13 @@ struct ArchiveVolume {
     std::filesystem::path path;
     UtcTime start, end;
     std::uint64_t size_bytes = 0;  // size of its file
-    bool gone = false;             // its owner deleted the raw file, according to the catalog
+    bool gone = false;             // the catalog says that the raw file was deleted
 };
 
 struct ArchiveRange {
     UtcTime from, to;              // inclusive
-    bool with_neighbours = false;  // also the volume before the range and the volume after it
-    // Files, archives and directories of chunks whose volumes are taken; empty: all.
+    bool with_neighbours = false;  // take also the last volume before and the first after the range
+    // Take only volumes in these files, archives and directories of chunks; empty: all.
     std::set<std::filesystem::path> only{};
 };
 
@@ -43,7 +43,8 @@ inline constexpr std::chrono::minutes farthest_neighbour{25};
 
 // Returns the volumes in the order of `stations`, then by start. A station that the catalog does
 // not have gives no volumes. If several stations are requested, a station whose database cannot be
-// read gives none, either; the catalog's troubles() names it. Errors: those of the catalog.
+// read gives none, either; the catalog's troubles() names such stations. Errors: those of the
+// catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,
     const ArchiveRange& range);

@@ -41,7 +41,7 @@ Result<CatalogedVolume> read_chunks(const CatalogReader& catalog, const CatalogE
     CatalogedVolume volume;
     int due = 1;
     for (const ChunkPath& chunk : *chunks) {
-        if (chunk.name.number < due) continue;  // a second chunk of this number
+        if (chunk.name.number < due) continue;  // another chunk with this number was taken
         const auto row = catalog.find_file(entry.station, chunk.path);
         if (!row) return pass_on(row);
         if (!row->has_value()) {

@@ -16,7 +16,7 @@ constexpr std::size_t most_siblings = 2000;
 
 }  // namespace
 
-// The key is the whole name except the number and the kind of the chunk.
+// Makes the key from the whole name without the number and the kind of the chunk.
 std::optional<ChunkPath> ChunkPath::of(const fs::path& path) {
     const std::string file = path.filename().string();
     auto placed = level2::place_chunk_name(file);

@@ -1,9 +1,9 @@
 // pipeline/drop/chunk_path.h -- finds the files that are the chunks of one volume.
 //
-// These are the files of a directory whose names differ only in the number and the kind of the
+// They are the files of one directory whose names differ only in the number and the kind of the
 // chunk (stormcellar/level2/chunk_name.h).
 //
-// Threads   Functions without state, which read the directory.
+// Threads   The functions have no state. They read the directory.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ namespace stormcellar::pipeline {
 // A path with the name of a chunk.
 struct ChunkPath {
     std::filesystem::path path;
-    std::string prefix;  // the start of the names of all chunks of its volume
+    std::string prefix;  // the common start of the names of the volume's chunks
     std::string key;     // the same for all chunks of its volume, and for no other chunks
     level2::ChunkName name;
 
@@ -27,8 +27,8 @@ struct ChunkPath {
     [[nodiscard]] static std::optional<ChunkPath> of(const std::filesystem::path& path);
 };
 
-// Returns the other chunks of the chunk's volume that are in its directory, at most 2,000, in the
-// order of their numbers. `beneath` is the root in base/beneath.h. Errors: those of
+// Returns the other chunks of the same volume that are in the chunk's directory, at most 2,000, in
+// the order of their numbers. `beneath` is the root in base/beneath.h. Errors: those of
 // names_beneath().
 [[nodiscard]] Result<std::vector<ChunkPath>> chunks_beside(
     const ChunkPath& chunk, const std::filesystem::path& beneath = {});

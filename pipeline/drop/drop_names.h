@@ -1,9 +1,9 @@
-// pipeline/drop/drop_names.h -- tells from the name of a file in the drop directory if the file is
-// unfinished, if it is a chunk, and of which station it is.
+// pipeline/drop/drop_names.h -- tells from the name of a file in the drop directory whether the
+// file is unfinished, whether it is a chunk, and of which station it is.
 //
 // A writer marks an unfinished file with a leading dot (pqact's dot-file, rsync, our own temporary
 // files) or with an ending. Such files are ignored until they are renamed. The station in a name is
-// only a first guess, because the contents decide.
+// only a first guess; the contents decide.
 //
 // Threads   Pure functions.
 #pragma once
@@ -20,8 +20,8 @@ namespace stormcellar::pipeline {
 
 // Returns the station in the file's name (station_in_name()), or an empty text.
 [[nodiscard]] std::string station_of_file_name(const std::filesystem::path& path);
-// Returns the station in the file's name, or else in the name of its directory, or else in the name
-// of the directory above; or an empty text.
+// Returns the station in the file's name, else the station in the name of its directory, else the
+// station in the name of the directory above. Returns an empty text if none of these has one.
 [[nodiscard]] std::string station_of_path(const std::filesystem::path& path);
 // Returns true if the file's name is the name of a chunk.
 [[nodiscard]] bool is_chunk_name(const std::filesystem::path& path);

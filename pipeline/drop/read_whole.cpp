@@ -61,7 +61,7 @@ WholeFile read_by_stretches(const std::filesystem::path& beneath, const std::fil
             file.was_read = pass_on(got);
             return file;
         }
-        // the file is shorter than it was; the caller sees that it has changed
+        // The file is shorter than it was. The caller will see that it has changed.
         if (*got == 0) break;
         done += *got;
         const auto stretch = std::span{buffer}.first(*got);

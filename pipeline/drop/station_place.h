@@ -11,8 +11,8 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the position in the station table, or else in the newest four files that are not gone;
-// none if neither has it.
+// Returns the position of a station from the station table, or else from its newest four files that
+// are not gone. Returns none if neither has it.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);
 

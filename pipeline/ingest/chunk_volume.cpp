@@ -13,16 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Real chunks have less than a hundredth of this. A larger file is not a chunk.
+// A file above this size is not a chunk. Real chunks have less than a hundredth of it.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
-// A job that reads further chunks stops after this many bytes, or after this many files that do not
-// belong to the volume. The remaining chunks come with their own jobs.
+// A job that reads further chunks stops after this many bytes, or after this many files that turn
+// out not to belong to the volume. The remaining chunks are read by their own jobs.
 constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
 constexpr std::chrono::seconds between_catching_up{1};
 
-// Keeps the partial sweeps of chunks on the volume's shelf.
+// Puts the partial sweeps of chunks on the volume's shelf, a file on disk for sweeps.
 class ShelfDepot final : public level2::SweepDepot {
   public:
     explicit ShelfDepot(SweepShelf& shelf) : shelf_(shelf) {}
@@ -34,7 +34,8 @@ class ShelfDepot final : public level2::SweepDepot {
     }
     Result<level2::Sweep> get(std::uint64_t place) const override {
         auto sweep = shelf_.get(places_.at(place));
-        // The files are not to blame for this error, whatever its code: they have not changed.
+        // Whatever the code of this error is, the files are not to blame, because they have not
+        // changed.
         if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
         return sweep;
     }
@@ -121,7 +122,7 @@ bool ChunkVolume::InOneJob::is_enough(const ChunkVolume& volume) const {
            volume.refused_.size() - refused >= most_refused_at_once;
 }
 
-// Adds the other chunks of the volume; the chunk `of` becomes the representative.
+// Adds the other chunks of the volume. The chunk `of` becomes the representative.
 Status ChunkVolume::add_siblings(const ChunkPath& of) {
     const InOneJob before{read_bytes_, refused_.size()};
     representative_ = of.path;
@@ -140,16 +141,16 @@ Status ChunkVolume::add_siblings(const ChunkPath& of) {
         if (const auto added = add(chunk, *stamp); !added) all = pass_on(added);
     }
     representative_ = of.path;
-    former_representative_.clear();  // no job was told to poll it
+    former_representative_.clear();  // no job was told to poll the former representative
     const auto now = level2::LiveVolume::Clock::now();
     if (!all && !fails_since_) fails_since_ = now;
-    // After two minutes, go on without the files that fail, so that one bad sector does not hold
-    // back the rest of the volume.
+    // After two minutes, go on without the files that cannot be read, so that one bad sector does
+    // not hold back the rest of the volume.
     if (!all && now - *fails_since_ < longest_failing) return all;
     return {};
 }
 
-// Ignores errors, because a chunk that fails here comes again with its own job.
+// Ignores errors, because a chunk that cannot be read here has a job of its own.
 void ChunkVolume::add_what_is_missing(const ChunkPath& of) {
     const auto now = level2::LiveVolume::Clock::now();
     const bool is_early = now < next_catching_up_ && of.name.kind != level2::ChunkKind::end;
@@ -187,7 +188,7 @@ fs::path ChunkVolume::first_file() const {
     return first->first;
 }
 
-// Shelves a sweep under the number of its cut, which no late chunk changes.
+// Puts a sweep on the shelf, under the number of its cut. A late chunk does not change this number.
 void ChunkVolume::shelve(const level2::Sweep& sweep) {
     if (!kept_) return;
     const auto place = kept_->shelf->put(sweep);

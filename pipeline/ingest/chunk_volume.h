@@ -1,8 +1,8 @@
 // pipeline/ingest/chunk_volume.h -- a volume that comes as one file for each chunk.
 //
-// Decoded sweeps are kept on disk (pipeline/keep/sweep_shelf.h) until they are needed. Inside the
-// pipeline room only. Thread contract: one thread at a time, which holds the lock of its Guarded
-// (pipeline/ingest/chunk_volumes.h).
+// Decoded sweeps are kept on disk, on a shelf (pipeline/keep/sweep_shelf.h), until they are needed.
+// Inside the pipeline room only. Thread contract: one thread at a time, which holds the lock of the
+// Guarded that holds the volume (pipeline/ingest/chunk_volumes.h).
 #pragma once
 
 #include <cstdint>
@@ -27,41 +27,41 @@ class ChunkVolume {
     ChunkVolume(const FollowedFile::Options& options, const level2::LiveOptions& live);
 
     enum class Added : std::uint8_t {
-        added,       // the volume has the chunk, now or already before
+        added,       // the volume has the chunk, from this call or an earlier one
         unfinished,  // the file holds no complete chunk yet
-        not_ours,    // not a chunk of this volume despite its name: ingest it as another file
+        not_ours,    // despite its name, no chunk of this volume: ingest it otherwise
     };
-    // Adds the chunk. Does not read its file if the file was read with this stamp before. Errors:
-    // io or no_space if the file cannot be read now, for example because descriptors or memory ran
-    // out; then poll again.
+    // Adds the chunk. Does not read its file if it was read before with the same stamp. Errors: io
+    // or no_space if the file cannot be read now, for example because descriptors or memory ran
+    // out; poll it again then.
     [[nodiscard]] Result<Added> add(const ChunkPath& chunk, const FileStamp& stamp);
-    // Adds the chunk. Until a call has succeeded, it also adds the other chunks in the same
-    // directory, up to the limits of one job. Errors: those of add() for any of the chunks. After
-    // two minutes of errors in the other chunks, the volume continues without those that cannot be
-    // read.
+    // Adds the chunk. Until one call has succeeded, also adds the other chunks in the same
+    // directory, up to the limits of one job. Errors: those of add() for any of these chunks. If
+    // reading the other chunks has failed for two minutes, the volume continues without the chunks
+    // that cannot be read.
     [[nodiscard]] Result<Added> add_with_siblings(const ChunkPath& chunk, const FileStamp& stamp);
 
-    // If numbers are missing, adds chunks of the volume that have come in the meantime, because
-    // their own jobs may have to wait. Looks for such chunks at most once a second, or at once if
-    // `of` is the volume's end.
+    // If numbers are missing, adds the chunks of the volume that have come in the meantime, because
+    // their own jobs may have to wait. Looks for such chunks at most once a second, but at once if
+    // `of` is the end of the volume.
     void add_what_is_missing(const ChunkPath& of);
 
     // Returns true if the volume has a representative that held a complete chunk when it was last
-    // read. The representative is the only file that is polled for the volume while nothing comes:
-    // the chunk that was added last, unless set_representative() names another.
+    // read. The representative is the one file that is polled for the volume while nothing comes.
+    // It is the chunk that was added last, unless set_representative() named another.
     [[nodiscard]] bool has_representative() const;
     // Returns true if this file is the representative and held a complete chunk when it was last
     // read.
     [[nodiscard]] bool is_representative(const std::filesystem::path& path) const;
     void set_representative(const std::filesystem::path& path) { representative_ = path; }
-    // Returns the representative that the volume had before the last chunk was added. Returns an
-    // empty path if it had none, or if a call has returned it already.
+    // Returns the file that was the representative before the last chunk was added. Returns an
+    // empty path if there was none, or if an earlier call has returned it.
     [[nodiscard]] std::filesystem::path take_former_representative() {
         return std::exchange(former_representative_, {});
     }
 
-    // Closes the volume to further chunks. A caller that finds the volume closed must ask
-    // ChunkVolumes for a new volume.
+    // Closes the volume to further chunks. A caller that finds a closed volume must ask
+    // ChunkVolumes for a new one.
     void close() { is_closed_ = true; }
     [[nodiscard]] bool is_closed() const { return is_closed_; }
 
@@ -72,12 +72,12 @@ class ChunkVolume {
     void set_shown() { news_ = {}; }
     // Returns the sweeps on the shelf; null if there was no room for a shelf.
     [[nodiscard]] const ShelvedVolume* kept() const { return kept_.get(); }
-    // Returns true if some sweeps have closed and are on the shelf.
+    // Returns true if some sweeps are complete and on the shelf.
     [[nodiscard]] bool has_sweeps() const { return kept_ && !kept_->places.empty(); }
-    // Describes the growing volume for the catalog: its start and its closed sweeps. Returns none
-    // while chunk 1 is missing or no sweep has closed.
+    // Describes the growing volume for the catalog: its start and its complete sweeps. Returns none
+    // while chunk 1 is missing or no sweep is complete.
     [[nodiscard]] std::optional<catalog::VolumeFacts> living_facts() const;
-    // Returns the volume's approximate size in memory and on the shelf.
+    // Returns the approximate size of the volume in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {live_.held_bytes(), kept_ ? kept_->shelf->bytes() : 0, has_sweeps()};
     }
@@ -89,7 +89,8 @@ class ChunkVolume {
         bool is_whole = true;
     };
     [[nodiscard]] const std::map<std::filesystem::path, File>& files() const { return files_; }
-    // Returns the path of the complete chunk with the lowest number. The volume must have a file.
+    // Returns the path of the complete chunk with the lowest number. The volume must have such a
+    // chunk.
     [[nodiscard]] std::filesystem::path first_file() const;
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
@@ -97,7 +98,8 @@ class ChunkVolume {
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
-    // The counters at the start of a job, from which is_enough() tells if the job has read enough.
+    // The counters at the start of a job. From these, is_enough() tells whether the job has read
+    // enough.
     struct InOneJob {
         std::uint64_t read_bytes = 0;
         std::size_t refused = 0;
@@ -114,11 +116,11 @@ class ChunkVolume {
     std::vector<level2::Moment> moments_;
     std::filesystem::path beneath_;
     std::unique_ptr<ShelvedVolume> kept_;
-    std::unique_ptr<level2::SweepDepot> depot_;  // stores sweeps on the shelf of kept_
+    std::unique_ptr<level2::SweepDepot> depot_;  // puts sweeps on the shelf of kept_
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
-    // Radials of each closed sweep, by cut, and the time of the newest radial in them.
+    // The number of radials of each complete sweep, by cut; and the time of the newest of them.
     std::map<std::size_t, std::size_t> radial_counts_;
     std::optional<UtcTime> newest_radial_;
     // Files that were read and are not chunks of this volume, with their stamps.
@@ -129,8 +131,9 @@ class ChunkVolume {
     level2::LiveVolume::Clock::time_point next_catching_up_{};
 };
 
-// Returns when the file came, by the clock of LiveVolume. So if a volume is joined again, after a
-// restart or after it was given up, its waiting time still counts from the arrival of its files.
+// Returns when the file came, by the clock of LiveVolume. If a volume is joined again, after a
+// restart or after it was given up, its waiting time therefore still counts from the arrival of its
+// files.
 [[nodiscard]] level2::LiveVolume::Clock::time_point arrival_of(const FileStamp& stamp);
 
 }  // namespace stormcellar::pipeline

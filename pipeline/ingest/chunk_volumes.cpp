@@ -9,14 +9,14 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Limit for volumes that found no place. Beyond it, all of them are forgotten.
+// Limit of the volumes without a place that are remembered. Beyond it, all of them are forgotten.
 constexpr std::size_t most_representatives = 4096;
 
 }  // namespace
 
 bool ChunkVolumes::may_be_due(const ChunkPath& chunk) const {
     const auto beside = chunks_beside(chunk, options_.beneath);
-    if (!beside) return true;  // reading the file reports why
+    if (!beside) return true;  // reading the file will report the reason
     bool has_end = chunk.name.kind == level2::ChunkKind::end;
     auto newest = level2::LiveVolume::Clock::time_point::min();
     const auto look_at = [&](const ChunkPath& one) {
@@ -71,7 +71,7 @@ ChunkVolumes::Shared ChunkVolumes::find_known(const ChunkPath& chunk) const {
 bool ChunkVolumes::grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                         const std::string& station) {
     const MutexLock lock(mutex_);
-    // The volume was forgotten meanwhile, for example because it is read anew.
+    // The volume was forgotten in the meantime, for example because it is read anew.
     if (volumes_.find(chunk.key) != volume) return !volumes_.was_given_up(chunk.key);
     return volumes_.grew(chunk.key, volume.get(), station, growth);
 }

@@ -1,12 +1,12 @@
-// pipeline/ingest/chunk_volumes.h -- volumes that come as one file for each chunk.
+// pipeline/ingest/chunk_volumes.h -- the volumes that come in chunks, one file for each chunk.
 //
-// The chunks of one volume are the files of a directory whose names differ only in the chunk's
-// number and kind (stormcellar/level2/chunk_name.h). When a volume's first chunk comes, whatever
-// its number, all chunks in the directory are read. So the volume can be joined again from its
-// files after a restart, and when a late chunk comes. The number and size of volumes are limited
-// for each station and in total (pipeline/ingest/followed.h). A volume that was given up, or found
-// no place, is read from its files when no more chunks come. Inside the pipeline room only. Thread
-// contract: many threads may call all functions.
+// The chunks of one volume are the files of a directory whose names differ only in the number and
+// the kind of the chunk (stormcellar/level2/chunk_name.h). When the first chunk of a volume comes,
+// whatever its number is, all chunks in the directory are read. So the volume can be joined again
+// from its files after a restart, and when a late chunk comes. The number and size of volumes are
+// limited for each station and in total (pipeline/ingest/followed.h). A volume that was given up,
+// or that found no place, is read from its files when no more chunks come. Inside the pipeline room
+// only. Thread contract: many threads may call all functions.
 #pragma once
 
 #include <cstddef>
@@ -32,28 +32,28 @@ class ChunkVolumes {
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
-    // The chunks that the caller expects of a volume besides the one at hand.
+    // The part of a volume that the caller still expects after the present chunk.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
-    // Finds the volume, or makes it. `station` is the station in its path. Returns null if more
-    // chunks are expected and there is no place for the volume or it was given up; then poll again
-    // when no more chunks come. A volume that was given up gets one more try when its end comes;
-    // after that, null is returned until nothing is expected.
+    // Returns the volume; makes it if it is unknown. `station` is the station in its path. If more
+    // chunks are expected, returns null if there is no place for the volume or it was given up; the
+    // caller polls again when no more chunks come. A volume that was given up gets one more try
+    // when its end comes; after that, null is returned until nothing is expected.
     [[nodiscard]] Shared find(const ChunkPath& chunk, const std::string& station,
                               Expected expected = Expected::more);
-    // Returns true if, by the names and times of its files, the volume may be finished: its end has
-    // come, or nothing has come for the timeout. Reads no contents.
+    // Returns true if the volume may be finished: its end has come, or nothing has come for the
+    // timeout. Judges by the names and times of its files, and reads no contents.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
-    // Makes this chunk the representative of a volume that found no place. Returns the former
-    // representative, or an empty path if it was this chunk or there was none.
+    // Makes this chunk the representative of a volume that found no place. Returns the chunk that
+    // was the representative before; returns an empty path if that is this chunk or there was none.
     [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
-    // Returns null if the volume is unknown.
+    // Returns the volume of this chunk, or null if it is unknown.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;
-    // Notes the memory and disk space that the volume holds. Returns false if the volume was given
-    // up, now or before.
+    // Notes how much memory and disk space the volume holds. Returns false if the volume was given
+    // up, now or earlier.
     [[nodiscard]] bool grew(const ChunkPath& chunk, const Shared& volume, const Growth& growth,
                             const std::string& station);
     void forget(const ChunkPath& chunk);
-    // Forgets the volume of this chunk, but only if that is still `volume`.
+    // Forgets the volume of this chunk, if that volume is still `volume`.
     void forget(const ChunkPath& chunk, const Shared& volume);
     [[nodiscard]] std::size_t count() const;
     // Returns the number of volumes that were given up since the last call.

@@ -11,7 +11,7 @@ FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
     if (!may_be_followed) return Whole{stamp};
     if (auto followed = context.living->find(file.path))
         return Growing{stamp, std::move(followed), {}};
-    // A file that has been quiet for long enough is no longer followed.
+    // A file that has not changed for long enough is no longer followed.
     if (file.may_be_partial()) return Whole{stamp};
     if (auto start = FollowedFile::growing(file.path, context.options.beneath))
         return Growing{stamp, nullptr, std::move(*start)};

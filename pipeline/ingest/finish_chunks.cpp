@@ -31,7 +31,7 @@ std::vector<FileFacts> rows_of_others(const ChunkVolume& volume, const std::stri
     return others;
 }
 
-// Returns the rows with the state `seen`, for the time in which the volume is gridded, so that
+// Returns the rows with the state `seen`. They are stored while the volume is gridded, so that
 // readers of the catalog find all of its chunks.
 std::vector<FileFacts> as_seen(std::vector<FileFacts> rows) {
     for (FileFacts& row : rows)
@@ -39,7 +39,7 @@ std::vector<FileFacts> as_seen(std::vector<FileFacts> rows) {
     return rows;
 }
 
-// Returns ok if there is no `check`, or if every file passes it.
+// Returns ok if every file passes `check`, or if there is no check.
 Status check_all(const ReadCheck& check, const ChunkVolume& volume) {
     if (!check) return {};
     for (const auto& [path, file] : volume.files()) {
@@ -69,8 +69,8 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
     outcome.missing_chunks = volume.missing_numbers();
     auto decoded = volume.finish();
     outcome.decode_s += seconds_since(start);
-    // A shelved sweep cannot be read back, or memory is short. The files are not to blame and are
-    // read again.
+    // If a sweep on the shelf cannot be read back, or memory is short, the files are not to blame.
+    // They are read again.
     if (!decoded && decoded.error().cause() == Cause::system) return pass_on(decoded);
     const auto settle_others = [&] {
         return context.catalog.register_files(context.taken_station(station), others);
@@ -83,7 +83,7 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
         if (Status settled = settle_others(); !settled) return pass_on(settled);
         return context.reject(facts, decoded.error(), std::move(outcome));
     }
-    // Register the other chunks; the first chunk's row then describes the whole volume.
+    // Register the other chunks first. Then the row of the first chunk describes the whole volume.
     const std::string taken_station = context.taken_station(station);
     if (Status seen = context.catalog.register_files(taken_station, as_seen(others)); !seen)
         return pass_on(seen);

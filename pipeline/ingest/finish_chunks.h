@@ -1,6 +1,6 @@
-// pipeline/ingest/finish_chunks.h -- finishes a volume of chunks when no more chunks are expected.
+// pipeline/ingest/finish_chunks.h -- finishes a volume in chunks when no more chunks are expected.
 //
-// Inside the pipeline room only. Thread contract: the caller holds the volume's lock.
+// Inside the pipeline room only. Thread contract: the caller must hold the volume's lock.
 #pragma once
 
 #include <string>
@@ -10,13 +10,15 @@
 
 namespace stormcellar::pipeline {
 
-// Returns the station in the volume's data, or else in the chunk's path; or an empty text.
+// Returns the station in the volume's data, else the station in the chunk's path, else an empty
+// text.
 [[nodiscard]] std::string station_of(const ChunkVolume& volume, const ChunkPath& chunk);
 
-// Decodes the volume from its present chunks, grids it, and settles the rows of all its files: the
-// row of the first chunk describes the volume, and the other rows say that their chunks are part of
-// it. `station` is the result of station_of(), `is_the_same` the check of Ingestor::ingest_again().
-// Adds to the outcome. Errors: those of Ingestor::ingest(); then the files must be read again.
+// Decodes the volume from the chunks that it has, grids it, and settles the rows of all its files:
+// the row of the first chunk describes the volume, and the other rows say that their chunks are
+// part of it. `station` must be the result of station_of(), and `is_the_same` is the check of
+// Ingestor::ingest_again(). Adds to the outcome. Errors: those of Ingestor::ingest(); the files
+// must then be read again.
 [[nodiscard]] Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
                                                   const std::string& station,
                                                   const ReadCheck& is_the_same,

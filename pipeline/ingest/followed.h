@@ -1,9 +1,9 @@
-// pipeline/ingest/followed.h -- the files or volumes that are followed as they grow, and those that
-// were given up.
+// pipeline/ingest/followed.h -- the files or volumes that are followed as they grow. Remembers
+// which of them were given up.
 //
-// A GrowingSet gives up files or volumes to stay within its bounds. This class remembers the keys
-// that were given up, so that nothing is followed again only to be given up again. When it has
-// remembered `most_remembered` keys, it forgets all of them, and they may be followed once more.
+// A GrowingSet gives up files or volumes to stay within its limits. This class remembers the keys
+// of what was given up, so that nothing is followed again only to be given up again. When it
+// remembers `most_remembered` keys, it forgets all of them; they may then be followed once more.
 // Inside the pipeline room only. Thread contract: one thread at a time; the owner locks.
 #pragma once
 
@@ -26,10 +26,10 @@ class Followed {
 
     explicit Followed(GrowingLimits limits) : things_(limits) {}
 
-    // Returns null if nothing is followed under this key.
+    // Returns the object that is followed under this key, or null if there is none.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // Makes a place for one more file or volume of the station. May give up other files or volumes,
-    // by the rules of GrowingSet::has_place(). Returns false if there is no place.
+    // Makes a place for one more file or volume of the station. May give up others, by the rules of
+    // GrowingSet::has_place(). Returns false if there is no place.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();
@@ -38,8 +38,8 @@ class Followed {
     void add(const Key& key, std::shared_ptr<Object> object, const std::string& station) {
         things_.add(key, std::move(object), station, Clock::now());
     }
-    // Notes what an object holds now. Returns false if it was given up, or if another object has
-    // its key.
+    // Notes how much an object holds now. Returns false if the object was given up, or if another
+    // object has its key.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth) {
         const bool stands = things_.grew(key, object, station, growth, Clock::now());
@@ -51,14 +51,15 @@ class Followed {
         things_.erase(key);
         remember(key);
     }
-    // Forgets the key, as if it had never been followed or given up.
+    // Forgets the key. It then counts as never followed and never given up.
     void forget(const Key& key) {
         things_.erase(key);
         given_up_.erase(key);
     }
 
     [[nodiscard]] bool was_given_up(const Key& key) const { return given_up_.contains(key); }
-    // Returns true once for each key that was given up, so that the key gets a second try.
+    // Returns true if the key was given up and has not had a second try. The second try is then
+    // taken.
     [[nodiscard]] bool take_second_try(const Key& key) {
         const auto at = given_up_.find(key);
         return at != given_up_.end() && !std::exchange(at->second.had_second_try, true);

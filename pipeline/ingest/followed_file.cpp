@@ -28,7 +28,8 @@ constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
 constexpr double same_elevation_deg = 0.2;
 constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
-// The largest known record has half a megabyte, and five megabytes unpacked.
+// A longer last record is not examined. The largest known record has half a megabyte, and five
+// megabytes unpacked.
 constexpr std::uint64_t most_last_record_bytes = std::uint64_t{2} << 20;
 constexpr std::uint64_t most_last_record_output = std::uint64_t{16} << 20;
 
@@ -45,7 +46,7 @@ class OpenFile {
             return std::nullopt;
         return found;
     }
-    // Reads as many bytes as are available, up to the size of the buffer.
+    // Reads the bytes that are there, up to the size of the buffer.
     [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::byte> into) const {
         std::size_t done = 0;
         while (done < into.size()) {
@@ -71,9 +72,10 @@ std::int32_t control_word(std::span<const std::byte, 4> bytes) {
 }
 
 struct RecordChain {
-    // The file has its last record, or is not a file of records.
+    // True if the last record has come, or if the file is not a file of records.
     bool is_whole = false;
-    // Start of the last record, if it ends with the file; 0 if the file ends within a record.
+    // Start of the last record, if the file ends where the record ends; 0 if the file ends within a
+    // record.
     std::uint64_t last = 0;
 };
 
@@ -92,7 +94,7 @@ RecordChain chain_of(const OpenFile& file, std::uint64_t size) {
     return {true, 0};
 }
 
-// Returns true if the record from there to the end of the file holds the last radial of a volume.
+// Returns true if the record from `begin` to the end of the file holds the last radial of a volume.
 bool ends_volume(const OpenFile& file, std::uint64_t begin, std::uint64_t size) {
     if (size - begin > most_last_record_bytes) return false;
     std::vector<std::byte> record(size - begin);
@@ -133,7 +135,8 @@ std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
     Growing growing{header->icao, 0};
-    // Little more than the header has come, which does not show what will follow. The file may be
+    // Hardly more than the header has come. This does not show what will follow, so the file may be
+    // growing.
     // growing.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
@@ -248,7 +251,7 @@ Status FollowedFile::is_as_followed() const {
     Xxh3Stream hash;
     std::vector<std::byte> buffer(stretch_bytes);
     std::uint64_t done = 0;
-    // Read one byte more than before: if that succeeds, the file has grown.
+    // Try to read one byte more than before. If that succeeds, the file has grown.
     while (done <= read_bytes_) {
         const std::size_t wanted = std::min<std::uint64_t>(buffer.size(), read_bytes_ + 1 - done);
         const std::size_t got = file.read(done, std::span{buffer}.first(wanted));
@@ -273,15 +276,15 @@ Result<level2::Decoded> FollowedFile::finish() {
     if (!decoded) return decoded;
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
-    // Shelve the last sweep, which closes only now, and sweeps whose index changed because sweeps
-    // were put in order.
+    // Put the last sweep on the shelf, because it is complete only now. Also put sweeps there whose
+    // index changed when sweeps were put in order.
     for (std::size_t index = 0; index < decoded->volume.sweeps.size(); ++index) {
         const level2::Sweep& sweep = decoded->volume.sweeps[index];
         const auto before = kept_->sweeps.find(index);
         if (index < dropped_ && before->second.elevation_deg == sweep.mean_elevation_deg())
             continue;
         const auto place = kept_->shelf->put(sweep);
-        if (!place) break;  // the next volume's living grids will lack these sweeps
+        if (!place) break;  // living grids of the next volume will lack these sweeps
         kept_->places.insert_or_assign(index, *place);
         kept_->sweeps.insert_or_assign(
             index, ShelvedVolume::Kept{moments_in(sweep, moments_), sweep.mean_elevation_deg()});
@@ -302,7 +305,7 @@ Result<LivingSweeps> LivingSweeps::read(const ShelvedVolume& growing, const Shel
                                         MomentSet moments) {
     LivingSweeps read;
     read.volume_ = growing.facts;
-    // Returns the moments that a new sweep near this elevation has.
+    // Returns the moments for which a new sweep near this elevation has come.
     const auto come_again = [&growing](double elevation_deg) {
         MomentSet come;
         for (const auto& [key, kept] : growing.sweeps) {

@@ -1,12 +1,12 @@
 // pipeline/ingest/followed_file.h -- a file whose volume is still growing, decoded once.
 //
-// Each call of read_to() reads and decodes what was appended since the last call. Closed sweeps are
-// kept on disk (pipeline/keep/sweep_shelf.h), so that they take little memory. finish() returns the
-// same volume, bit for bit, as decoding the whole file, for the selected moments; it reads the file
-// once more to verify that the followed bytes have not changed. Only files of LDM records are
-// followed, because other files must be held whole until their end anyway. After any error, the
-// file must be read as a whole. Inside the pipeline room only. Thread contract: one thread at a
-// time.
+// Each call of read_to() reads and decodes what was appended since the last call. Complete sweeps
+// are kept on disk, on a shelf (pipeline/keep/sweep_shelf.h), so that they take little memory.
+// finish() returns the same volume, bit for bit, as decoding the whole file for the selected
+// moments; it reads the file once more, to verify that the bytes have not changed. Only files of
+// LDM records are followed, because other files must be held whole until their end anyway. After
+// any error, the file must be read as a whole. Inside the pipeline room only. Thread contract: one
+// thread at a time.
 #pragma once
 
 #include <bitset>
@@ -33,28 +33,28 @@ using MomentSet = std::bitset<level2::moment_count>;
 [[nodiscard]] MomentSet moments_in(const level2::Sweep& sweep,
                                    const std::vector<level2::Moment>& moments);
 
-// The sweeps of a volume, on disk. They no longer change once the volume has ended.
+// The sweeps of a volume, on a shelf on disk. Once the volume has ended, they no longer change.
 struct ShelvedVolume {
     level2::Volume facts;  // without sweeps
     std::string source_file;
     std::unique_ptr<SweepShelf> shelf;
-    // Identifies a sweep of this volume; keys rise in the order of the sweeps. In a growing file,
-    // the key is the sweep's index in the volume. In a volume of chunks, it is the number of the
-    // cut, because a late chunk may change indices, but never the cut of a sweep.
+    // Identifies a sweep of this volume. Keys rise in the order of the sweeps. In a growing file,
+    // the key is the index of the sweep in the volume. In a volume in chunks, it is the number of
+    // the cut, because a late chunk may change the index of a sweep, but never its cut.
     using SweepKey = std::size_t;
-    std::map<SweepKey, SweepShelf::Place> places;  // on the shelf
+    std::map<SweepKey, SweepShelf::Place> places;  // where each sweep is on the shelf
     struct Kept {
-        MomentSet moments;         // the gridded moments that it has
-        double elevation_deg = 0;  // mean
+        MomentSet moments;         // those of the gridded moments that the sweep has
+        double elevation_deg = 0;  // mean of its radials
     };
     std::map<SweepKey, Kept> sweeps;
 
-    // Returns true if no sweep with a gridded moment is lower than `elevation_deg`, as for the
-    // lowest cut and its repetitions.
+    // Returns true if no sweep with a gridded moment is lower than `elevation_deg`. This holds for
+    // the lowest cut and its repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
 };
 
-// Sweeps that no living grid shows yet.
+// The sweeps that no living grid shows yet. (A living grid is the grid of a growing volume.)
 struct UnshownSweeps {
     bool any = false, low = false;
     MomentSet moments;  // moments of these sweeps
@@ -75,30 +75,29 @@ class FollowedFile {
         std::filesystem::path scratch;
         std::filesystem::path beneath = {};  // all files must be below it (IngestOptions)
         std::chrono::seconds chunk_timeout{600}, chunk_grace{30};  // see LivingGrids
-        // The limit of the bytes of a sweep that has not closed; 0: see
-        // stormcellar/level2/decode.h.
+        // Limit of the bytes of an incomplete sweep; 0: see stormcellar/level2/decode.h.
         std::uint64_t open_sweep_limit_bytes = 0;
     };
 
-    // The start of a growing file.
+    // The facts that are known when a file begins to be followed.
     struct Growing {
-        std::string station;            // from its header; empty if it names none
+        std::string station;            // station in its header; empty if it names none
         std::uint64_t last_record = 0;  // start of the last record; 0 if the file ends within it
     };
-    // Examines a file by the lengths of its records. Returns the start of a growing file, which is
-    // a file of LDM records whose last record has not come; none for any other file, or if it
+    // Examines a file by the lengths of its records. Returns the start of a growing file: a file of
+    // LDM records whose last record has not come. Returns none for any other file, or if the file
     // cannot be read.
     [[nodiscard]] static std::optional<Growing> growing(const std::filesystem::path& path,
                                                         const std::filesystem::path& beneath = {});
-    // Returns true if the last record of a growing file holds the last radial of a volume, whatever
-    // its control word says.
+    // Returns true if the last record of a growing file holds the last radial of a volume. The
+    // record's control word does not matter.
     [[nodiscard]] static bool has_ended(const std::filesystem::path& path, const Growing& growing,
                                         const std::filesystem::path& beneath = {});
     static Result<std::unique_ptr<FollowedFile>> begin(const std::filesystem::path& path,
                                                        const Options& options);
 
-    // Reads and decodes up to `size_bytes`. `may_read_on` is called after each stretch; if it
-    // returns false, reading ends with over_budget. Errors: also not_found if the file is gone.
+    // Reads and decodes up to `size_bytes`. Calls `may_read_on` after each stretch; if that returns
+    // false, reading ends with over_budget. Errors: also not_found if the file is gone.
     [[nodiscard]] Status read_to(std::uint64_t size_bytes,
                                  const std::function<bool()>& may_read_on = {});
     // Returns true if no read has failed.
@@ -107,19 +106,19 @@ class FollowedFile {
     [[nodiscard]] bool has_ended() const { return growing_.has_last_radial(); }
     [[nodiscard]] UnshownSweeps news() const { return news_; }
     void set_shown() { news_ = {}; }
-    // Returns the sweeps that have closed, with the volume's station, pattern and position.
+    // Returns the complete sweeps, with the station, pattern and position of the volume.
     [[nodiscard]] const ShelvedVolume& kept() const { return *kept_; }
     [[nodiscard]] std::size_t radials() const { return radials_; }
     [[nodiscard]] std::optional<UtcTime> newest() const { return newest_; }
     [[nodiscard]] bool holds_several() const { return growing_.holds_several(); }
     [[nodiscard]] std::uint64_t content_hash() const { return hash_.value(); }
-    // Returns the file's approximate size in memory and on the shelf.
+    // Returns the approximate size of the file in memory and on the shelf.
     [[nodiscard]] Growth growth() const {
         return {growing_.held_bytes(), kept_->shelf->bytes(), !kept_->places.empty()};
     }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // Returns the sweeps, to keep them for the site's next volume. Call it after finish().
+    // Returns the sweeps, which are kept for the site's next volume. Call it after finish().
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
@@ -133,7 +132,7 @@ class FollowedFile {
     std::vector<level2::Moment> moments_;
     level2::GrowingVolume growing_;
     std::unique_ptr<ShelvedVolume> kept_;
-    std::size_t dropped_ = 0;  // sweeps below this index are only on the shelf
+    std::size_t dropped_ = 0;  // sweeps with a lower index are only on the shelf
     Xxh3Stream hash_;
     std::uint64_t inode_ = 0, read_bytes_ = 0;
     std::size_t radials_ = 0;
@@ -143,35 +142,35 @@ class FollowedFile {
     bool is_whole_ = true;
 };
 
-// The sweeps for the living grids of a growing volume, unpacked once for all moments.
+// The sweeps for the living grids of a growing volume. They are unpacked once for all moments.
 class LivingSweeps {
   public:
-    // Reads the sweeps of the growing volume that have one of these moments, and the sweeps of the
-    // site's last volume (null: none) that the growing volume has not yet replaced. The volumes
-    // need not outlive the object. Errors: those of the shelf.
+    // Reads the sweeps of the growing volume that have one of these moments. Also reads those
+    // sweeps of the site's last volume (null: none) that the growing volume has not replaced yet.
+    // The volumes need not outlive the object. Errors: those of the shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments);
 
-    // Returns the growing volume's sweeps that have the moment, preceded by the last volume's
-    // sweeps that have it and whose elevation has not come again (within 0.2 degrees). Because only
-    // sweeps with the moment count, an old Doppler sweep stays until a new Doppler sweep has come.
-    // If the last volume is more than 20 minutes older, its sweeps are left out. The result is
-    // valid until the next call.
+    // Returns a volume with all sweeps that show the moment now. First come sweeps of the last
+    // volume that have the moment and whose elevation has not come again (within 0.2 degrees); then
+    // the growing volume's sweeps that have the moment. Only sweeps with the moment count, so an
+    // old Doppler sweep stays until a new Doppler sweep has come. If the last volume is more than
+    // 20 minutes older, its sweeps are left out. The result is valid until the next call.
     [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
-    // Returns how many sweeps of the last result of volume_of() are from the last volume.
+    // Returns how many sweeps in the last result of volume_of() are from the site's last volume.
     [[nodiscard]] std::size_t standing() const { return standing_; }
 
   private:
     struct One {
         level2::Sweep sweep;
-        MomentSet moments;    // moments for which the sweep counts
+        MomentSet moments;    // moments that this sweep shows
         bool stands = false;  // the sweep is from the last volume
     };
     Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
                bool stands);
 
     std::vector<One> sweeps_;        // in the order of the volume
-    std::vector<std::size_t> lent_;  // indexes of sweeps that are now in volume_
+    std::vector<std::size_t> lent_;  // indices of the sweeps that are in volume_ now
     level2::Volume volume_;
     std::size_t standing_ = 0;
 };

@@ -6,7 +6,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-constexpr std::chrono::minutes farthest_ahead{10};  // tolerance for a clock that is fast
+constexpr std::chrono::minutes farthest_ahead{10};  // a radar's clock may be ahead by this much
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void FollowedFiles::drop_last_beyond_limits() {
     std::uint64_t shelf = files_.shelf_bytes();
     for (const auto& [station, volume] : last_)
         shelf += volume->shelf->bytes();
-    // There may be as many sites as files, because their names come from outside.
+    // Names of sites come from outside, so there may be as many sites as files.
     while (!last_.empty() && (last_.size() > limits_.count || shelf > limits_.shelf_bytes)) {
         const auto oldest =
             std::min_element(last_.begin(), last_.end(), [](const auto& a, const auto& b) {
@@ -72,7 +72,7 @@ void FollowedFiles::forget(const std::filesystem::path& path) {
 
 void FollowedFiles::keep_last(std::shared_ptr<const ShelvedVolume> volume) {
     if (!volume || volume->facts.station.empty()) return;
-    // A volume that claims to be from the future is not kept, because no volume would ever replace
+    // Do not keep a volume that claims to be from the future, because no later volume would replace
     // it.
     if (volume->facts.start_time() > now_utc() + farthest_ahead) return;
     const MutexLock lock(mutex_);

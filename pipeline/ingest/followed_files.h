@@ -1,10 +1,10 @@
-// pipeline/ingest/followed_files.h -- the files that are followed while they grow, and the sweeps
-// of each site's last volume, which living grids of the next volume use.
+// pipeline/ingest/followed_files.h -- the files that are followed while they grow. Also keeps the
+// sweeps of each site's last volume, which the living grids of the next volume show.
 //
 // The number and size of files are limited for each station and in total
-// (pipeline/ingest/followed.h). Beyond the limit of disk space, the last volumes of the sites are
-// dropped, the oldest first; living grids then have fewer old sweeps. A file that was given up is
-// not followed again, but read whole when its volume has ended. Nothing outlives the process.
+// (pipeline/ingest/followed.h). Beyond the limit of disk space, the last volumes of sites are
+// dropped, the oldest first; living grids then show fewer old sweeps. A file that was given up is
+// not followed again; it is read whole when its volume has ended. Nothing outlives the process.
 // Inside the pipeline room only. Thread contract: many threads may call all functions; one thread
 // at a time works on a file.
 #pragma once
@@ -27,23 +27,25 @@ class FollowedFiles {
     explicit FollowedFiles(FollowedFile::Options options, GrowingLimits limits = {})
         : options_(std::move(options)), limits_(limits), files_(limits) {}
 
-    // Returns null if the file is not followed.
+    // Returns the file if it is followed, else null.
     [[nodiscard]] std::shared_ptr<FollowedFile> find(const std::filesystem::path& path) const;
-    // Begins to follow a file. `station` is the station in its header. Returns null if the file
-    // cannot be followed: there is no place, descriptor or room for it, or it was given up before.
+    // Begins to follow a file. `station` is the station in the file's header. Returns null if the
+    // file cannot be followed because there is no place, descriptor or room for it, or because it
+    // was given up before.
     [[nodiscard]] std::shared_ptr<FollowedFile> begin(const std::filesystem::path& path,
                                                       const std::string& fallback_station,
                                                       const std::string& station);
-    // Notes the memory and disk space that the file holds now. Returns false if the file is no
-    // longer followed; then do not read on.
+    // Notes how much memory and disk space the file holds now. Returns false if the file is no
+    // longer followed; do not read on then.
     [[nodiscard]] bool grew(const std::filesystem::path& path, const FollowedFile& file,
                             const std::string& station);
     void forget(const std::filesystem::path& path);
-    // Gives up a file, which will not be followed again.
+    // Gives up a file. It is not followed again.
     void give_up(const std::filesystem::path& path);
 
-    // Keeps the sweeps of a volume that has ended for the site's next volume, unless a later volume
-    // is kept or its start is more than 10 minutes in the future.
+    // Keeps the sweeps of a volume that has ended, for the site's next volume. Does not keep them
+    // if a later volume is kept already, or if the volume begins more than 10 minutes in the
+    // future.
     void keep_last(std::shared_ptr<const ShelvedVolume> volume);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> last_of(const std::string& station) const;
     [[nodiscard]] std::size_t count() const;

@@ -1,22 +1,22 @@
-// pipeline/ingest/growing_set.h -- a set of followed files or volumes, limited for each station and
-// in total. Used only inside the pipeline room.
+// pipeline/ingest/growing_set.h -- a set of files or volumes that are followed as they grow. The
+// set is limited for each station and in total. Used only inside the pipeline room.
 //
-// Each member holds a descriptor, memory and disk space. Its size is updated after every stretch
+// Each member holds a descriptor, memory and disk space. Its size is updated after each stretch
 // that is read, because what a file claims cannot be trusted. If a limit is exceeded, members are
-// given up:
+// given up (no longer followed):
 //   a station's own limit   among the members of the station
 //   the total limit         first among members of unknown stations, then among all
-//   the limit of beginnings among members without a closed sweep. A real volume has no closed sweep
-//                           for a fifteenth of its time; a forged one may never have any.
+//   the limit of beginnings among members without a complete sweep. A real volume has no complete
+//                           sweep for a fifteenth of its time; a forged one may never have any.
 // If there is too little memory or disk space, the member with the largest product of its size and
-// (1 + its minutes without progress) is given up. If there are too many members, the least active
-// member of the station with the most members is given up.
+// (1 + its minutes without progress) is given up. If there are too many members, the member given
+// up is the least active one of the station that has the most.
 //
-// There is no place for a new member if all others are active, because giving up active members for
-// new ones would mean reading everything again and again. A member is active for a minute after it
-// has grown. A new member is active for only five seconds, until a sweep has closed and data came
+// There is no place for a new member if all others are active: to give up active members for new
+// ones would mean to read everything again and again. A member is active for a minute after it has
+// grown. A new member is active for only five seconds, until a sweep is complete and data came
 // after the first look. At the total limit, however, a station with fewer members takes a place
-// from the station with most.
+// from the station with the most.
 //
 // Threads   One thread at a time; the owner locks.
 #pragma once
@@ -38,13 +38,13 @@ struct GrowingLimits {
     std::uint64_t held_bytes = std::uint64_t{192} << 20;
     std::uint64_t beginnings_held_bytes = std::uint64_t{192} << 20;
     std::uint64_t shelf_bytes = std::uint64_t{4} << 30;
-    // Limits of one station. All members of unknown stations count as one station. A site's volume
-    // holds some 3 MB of one moment, and two of its volumes may grow at once.
+    // Limits of one station. All unknown stations count as one. A site's volume holds some 3 MB for
+    // one moment, and two of its volumes may grow at the same time.
     std::size_t station_count = 16;
     std::uint64_t station_held_bytes = std::uint64_t{16} << 20;
     std::uint64_t station_shelf_bytes = std::uint64_t{512} << 20;
 
-    // Returns the limits for this many moments. Each of 160 sites holds about a megabyte of each
+    // Returns the limits for this many moments. Each of 160 sites holds about a megabyte for each
     // moment.
     [[nodiscard]] static GrowingLimits of(std::size_t moments) {
         GrowingLimits limits;
@@ -58,7 +58,7 @@ struct GrowingLimits {
 // Memory and disk space that a member holds, and its progress.
 struct Growth {
     std::uint64_t held_bytes = 0, shelf_bytes = 0;
-    bool has_sweeps = false;  // some sweeps have closed
+    bool has_sweeps = false;  // some sweeps are complete
 };
 
 template <class Key, class Object>
@@ -66,7 +66,7 @@ class GrowingSet {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds most_idle{60}, most_idle_at_first{5};
-    // A stretch that comes this soon still counts as part of the first look.
+    // A stretch that is read this soon still counts as part of the first look.
     static constexpr std::chrono::seconds first_look{1};
 
     explicit GrowingSet(GrowingLimits limits) : limits_(limits) {}
@@ -77,7 +77,7 @@ class GrowingSet {
     }
 
     // Makes a place for a new member, by giving up others if necessary. Returns false if there is
-    // no place; a member that is added nevertheless is given up when it next grows.
+    // no place. A member that is added nevertheless is given up when it next grows.
     [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
         while (count_of(station) >= limits_.station_count) {
             if (!give_up_idle(&station, now)) return false;
@@ -93,8 +93,8 @@ class GrowingSet {
         things_.insert_or_assign(key, Thing{std::move(object), station, now, now, {}});
     }
 
-    // Notes what a member holds now. Returns false if it was given up, or if another object has its
-    // key.
+    // Notes how much a member holds now. Returns false if the member was given up, or if another
+    // object has its key.
     [[nodiscard]] bool grew(const Key& key, const Object* object, const std::string& station,
                             const Growth& growth, Clock::time_point now) {
         const auto at = things_.find(key);
@@ -163,8 +163,8 @@ class GrowingSet {
         return now - thing.grew_at >= (goes_on(thing) ? most_idle : most_idle_at_first);
     }
 
-    // Gives up the idle member of the station (null: of the station with most members) that grew
-    // longest ago. Returns false if no member is idle.
+    // Gives up the idle member that grew longest ago: of this station, or if null, of the station
+    // with the most members. Returns false if no member is idle.
     bool give_up_idle(const std::string* station, Clock::time_point now) {
         std::map<std::string, std::size_t> counts;
         if (station == nullptr) {
@@ -189,8 +189,8 @@ class GrowingSet {
         return true;
     }
 
-    // Gives up the least active member of the station with most members, if it has more than
-    // `count` + 1 members.
+    // Gives up the least active member of the station with the most members, if the station has
+    // more than `count` + 1.
     bool give_up_of_largest(std::size_t count) {
         std::map<std::string, std::size_t> counts;
         for (const auto& [key, thing] : things_)
@@ -212,7 +212,7 @@ class GrowingSet {
     }
 
     enum class What { memory, disk };
-    // Gives up one of the members for which `which` is true. Returns false if none of them holds
+    // Gives up one of the members for which `which` is true. Returns false if none of these holds
     // anything.
     template <class Which>
     bool give_up_largest(const Which& which, What what, Clock::time_point now) {

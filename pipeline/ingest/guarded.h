@@ -1,7 +1,7 @@
 // pipeline/ingest/guarded.h -- a value that only the holder of its lock can reach.
 //
-// The value can be reached only through a Locked, which holds the mutex. So clang's analysis need
-// not follow a Locked, which functions pass to each other.
+// The value can be reached only through a Locked, and a Locked holds the mutex. So clang's analysis
+// of locks need not follow a Locked from function to function.
 //
 // Inside the pipeline room only. Thread contract: any thread may call lock(); the holder of the
 // Locked uses the value. A Locked must not outlive its Guarded.

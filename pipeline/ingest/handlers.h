@@ -1,10 +1,10 @@
 // pipeline/ingest/handlers.h -- ingests files of each kind (pipeline/ingest/file_kind.h).
 //
 // There is one class for each kind. An object is made for one file and used once; take() returns
-// the outcome for the file. Errors are those of Ingestor::ingest(). A handler that finds, by
-// reading, that the file is of another kind passes it to that kind's handler, with a new outcome.
-// Inside the pipeline room only. Thread contract: one thread uses an object; the context and the
-// file must outlive it.
+// the outcome for the file. If a handler finds, by reading, that the file is of another kind, it
+// passes the file to the handler of that kind, with a new outcome. Errors are those of
+// Ingestor::ingest(). Inside the pipeline room only. Thread contract: one thread uses an object;
+// the context and the file must outlive the object.
 #pragma once
 
 #include <chrono>
@@ -26,9 +26,9 @@ namespace stormcellar::pipeline {
 [[nodiscard]] Result<IngestOutcome> take(IngestContext& context, const OfferedFile& file,
                                          const FileKind& kind);
 
-// Marks the rows of a file that is gone. If the file represents a volume of chunks, the file's data
-// are already decoded. The volume is still polled under the file's name until it is due, because
-// later chunks may complete the volume.
+// Marks the rows of a file that is gone. If the file represents a volume in chunks, its data are
+// already decoded. The volume is still polled under the file's name until it is due, because later
+// chunks may complete it.
 class TakeGone {
   public:
     TakeGone(IngestContext& context, const OfferedFile& file) : context_(context), file_(file) {}
@@ -70,7 +70,7 @@ class TakeChunk {
     IngestOutcome outcome_;
 };
 
-// Handles a growing file: decodes what was appended, and the rest when the volume has ended.
+// Handles a growing file. Decodes what was appended, and finishes the volume when it has ended.
 class TakeGrowing {
   public:
     TakeGrowing(IngestContext& context, const OfferedFile& file, const Growing& growing);
@@ -119,8 +119,8 @@ class TakeArchive {
   public:
     TakeArchive(IngestContext& context, const OfferedFile& file, OpenArchive open)
         : context_(context), file_(file), open_(std::move(open)) {}
-    // Returns the archive at the path, opened before or now; none if the file is not an archive.
-    // Errors: the file cannot be opened.
+    // Returns the archive at the path, which is open already or is opened now. Returns none if the
+    // file is not an archive. Errors: the file cannot be opened.
     [[nodiscard]] static Result<std::optional<OpenArchive>> open(IngestContext& context,
                                                                  const std::filesystem::path& path,
                                                                  const FileStamp& stamp);
@@ -137,7 +137,7 @@ class TakeArchive {
     IngestOutcome outcome_;
 };
 
-// Ingests one member of an archive again, although it was settled before.
+// Ingests one member of an archive again, even if it was settled before.
 [[nodiscard]] Result<IngestOutcome> take_member_again(IngestContext& context,
                                                       const MemberName& name,
                                                       const FileStamp& archive_stamp,

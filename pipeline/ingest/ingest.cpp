@@ -15,7 +15,7 @@ struct Ingestor::Impl {
 
     [[nodiscard]] Finish finish_of(bool finish_as_is) const {
         if (!finish_as_is) return Finish::when_it_ends;
-        // Without a scratch directory, the file is not offered again after it was quiet.
+        // Without a scratch directory, the file is not offered again when it has been quiet.
         return context.options.living.scratch.empty() ? Finish::as_it_is : Finish::when_quiet;
     }
     Result<IngestOutcome> ingest(const fs::path& path, bool finish_as_is);
@@ -83,14 +83,14 @@ Result<IngestOutcome> Ingestor::Impl::ingest(const fs::path& path, bool finish_a
     return take(context, file, *kind);
 }
 
-// The cause may be gone after a restart, so the row gets a stamp that does not settle the file.
+// After a restart the cause may be gone, so the stamp in the row does not settle the file.
 Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error& why) {
     const auto stamp = stamp_of(path, context.options.beneath);
     if (context.living) context.living->forget(path);
     auto rejected =
         context.reject_unread(path, {why.code, "given up: " + without_path(why.message, path)},
                               stamp ? stamp->size_bytes : 0);
-    // Return `why` and not the error of storing the rejection.
+    // If the rejection cannot be stored, return `why` instead of that error.
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 
@@ -114,7 +114,8 @@ Result<Noted> Ingestor::note(const fs::path& path) {
         if (Status marked = context.mark_gone(path); !marked) return pass_on(marked);
         return impl_->is_waited_for(path) ? Noted::stands : Noted::gone;
     }
-    if (!stamp || !stamp->regular) return Noted::stands;  // ingesting it will reject it
+    // Ingest() will reject what is no regular file.
+    if (!stamp || !stamp->regular) return Noted::stands;
     const Status noted = context.note_seen(facts_unread(path, *stamp, station_of_path(path)));
     if (!noted) return pass_on(noted);
     return Noted::stands;

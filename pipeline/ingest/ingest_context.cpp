@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// This limit is small, because nearly all data of a volume of chunks are on disk.
+// This limit is small, because nearly all data of a volume in chunks are on disk.
 constexpr std::uint64_t most_held_chunk_bytes = std::uint64_t{64} << 20;
 
-// Returns all moments that are gridded.
+// Returns all moments that are gridded, for sites or for domains.
 std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     std::vector<level2::Moment> moments = options.moments;
     for (const Domain& domain : options.domains)

@@ -1,7 +1,7 @@
 // pipeline/ingest/ingest_context.h -- state and functions that the handlers of all kinds of files
 // share: the catalog, the store, the growing files, and writing catalog rows.
 //
-// Inside the pipeline room only. Thread contract: that of Ingestor; many threads may call all
+// Inside the pipeline room only. Thread contract: as for Ingestor, many threads may call all
 // functions, for different files.
 #pragma once
 
@@ -40,22 +40,23 @@ struct IngestContext {
     OpenArchives archives;
     std::atomic<int> running{0};  // files that are being ingested at this moment
 
-    // Returns the number of threads that one of the running files may use.
+    // Returns the number of threads that each of the running files may use.
     [[nodiscard]] int share_of(int threads) const { return std::max(1, threads / running.load()); }
     [[nodiscard]] level2::DecodeOptions decode_options_for(const std::string& station) const;
 
-    // Returns the station if its data are accepted, otherwise an empty text.
+    // Returns the station if its data are accepted, else an empty text.
     [[nodiscard]] std::string taken_station(const std::string& station) const;
-    // Tells the rule that decoded data of this station have come, so that it may accept a new name.
+    // Tells the rule for stations that decoded data of this station have come. The rule may then
+    // accept a new name.
     void admit(const std::string& station) const;
 
-    // Writes the row of a file. If the file's station is not accepted, the row is stored among the
+    // Writes the row of a file. If the file's station is not accepted, stores the row among the
     // files of unknown stations.
     Status record(catalog::FileFacts facts);
     // Records the file as rejected, and returns the outcome. Errors: the row cannot be stored.
     Result<IngestOutcome> reject(const catalog::FileFacts& facts, Error why, IngestOutcome outcome);
     // Rejects a file that was not examined. Its row does not settle it, so it is tried again when
-    // it is next offered. `size_bytes` is 0 if unknown.
+    // it is next offered. `size_bytes` is 0 if the size is unknown.
     Result<IngestOutcome> reject_unread(const std::filesystem::path& path, const Error& why,
                                         std::uint64_t size_bytes = 0);
     // Registers the file as seen, unless it has a row, and returns the outcome `incomplete`.
@@ -66,7 +67,7 @@ struct IngestContext {
     Status mark_gone(const std::filesystem::path& path);
 };
 
-// Counts a file while it is being ingested.
+// Counts a file while the file is being ingested.
 class Running {
   public:
     explicit Running(IngestContext& context) : count_(context.running) { ++count_; }
@@ -78,14 +79,13 @@ class Running {
     std::atomic<int>& count_;
 };
 
-// Returns the facts of a file that was not decoded: its path, size, modification time and this
+// Returns the facts of a file that was not decoded: its path, size and modification time, and this
 // station.
 [[nodiscard]] catalog::FileFacts facts_unread(const std::filesystem::path& path,
                                               const FileStamp& stamp, std::string station);
 // Returns the station in the file's name or, for a chunk, in its path (station_of_path()).
 [[nodiscard]] std::string station_of_name(const std::filesystem::path& path);
-// Returns the reason without the path at its beginning, because the catalog stores the path
-// separately.
+// Returns the reason without the path at its start, because the catalog stores the path separately.
 [[nodiscard]] std::string without_path(const std::string& message,
                                        const std::filesystem::path& path);
 

@@ -1,7 +1,6 @@
-// pipeline/ingest/open_archives.h -- archives whose members are ingested a few at a time, in turns.
-//
-// Inside the pipeline room only. Thread contract: any thread uses OpenArchives; one thread uses an
-// OpenArchive.
+// pipeline/ingest/open_archives.h -- the archives whose members are ingested a few at a time, in
+// turns. Inside the pipeline room only. Thread contract: any thread may use OpenArchives; one
+// thread may use an OpenArchive.
 #pragma once
 
 #include <chrono>
@@ -19,30 +18,31 @@
 
 namespace stormcellar::pipeline {
 
-// An archive whose members are ingested one after the other, with its progress.
+// An archive whose members are ingested one after the other, and how far that has come.
 struct OpenArchive {
     std::filesystem::path path;
     FileStamp stamp;
     Descriptor file;
     archive::ArchiveReader reader;
     std::size_t taken = 0, rejected = 0;
-    std::size_t known = 0;                     // members that the catalog already knew
+    std::size_t known = 0;                     // number of members that the catalog already knew
     std::set<std::filesystem::path> met = {};  // paths of the members that were taken so far
 };
 
 // The archives that wait for their next turn. The first four stay open until they end, are deleted,
-// or have waited for a day; the others are opened again and read from their beginning. So some
+// or have waited for a day. The others are opened again and read from their beginning. So some
 // archives always make progress.
 class OpenArchives {
   public:
-    // Returns none if the archive is not open, or has changed since.
+    // Takes the archive out of the list. Returns none if the archive is not open, or has changed
+    // since.
     [[nodiscard]] std::optional<OpenArchive> take(const std::filesystem::path& path,
                                                   const FileStamp& stamp);
     void keep(OpenArchive archive);
 
   private:
     static constexpr std::size_t most_open = 4;
-    static constexpr std::chrono::hours longest_wait{24};  // then an archive is closed
+    static constexpr std::chrono::hours longest_wait{24};  // an archive that waits longer is closed
 
     struct Waiting {
         OpenArchive archive;

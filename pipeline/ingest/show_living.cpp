@@ -7,13 +7,13 @@ namespace stormcellar::pipeline {
 Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, UnshownSweeps news,
                          const std::string& file, IngestOutcome& outcome) {
     const IngestOptions& options = context.options;
-    // The header's start names the grid. Without the header, the living grid would get another name
-    // and stay beside the final grid.
+    // The start in the header gives the grid its name. Without the header, the living grid would
+    // get another name and stay beside the final grid.
     if (!kept.facts.header) return false;
     const std::string station = context.taken_station(kept.facts.station);
     if (!context.living || !options.own_grids || station.empty()) return false;
-    // If there is no time now, the sweeps are shown with the next sweep, or at the end of the
-    // volume. Low sweeps are shown in any case, because users look at them first.
+    // If there is no time now, the next sweep or the end of the volume will show these sweeps. Low
+    // sweeps are always shown, because users look at them first.
     if (!news.low && options.living.has_time && !options.living.has_time()) {
         outcome.living_left_out = true;
         return false;
@@ -25,7 +25,7 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
     for (const level2::Moment moment : options.moments) {
         if (!news.moments.test(static_cast<std::size_t>(moment))) continue;
         const level2::Volume& volume = sweeps->volume_of(moment);
-        // The living grid would get another time than the final grid, and stay beside it.
+        // The living grid would get another time than the final grid, and would stay beside it.
         if (volume.start_time() != kept.facts.header->time()) continue;
         GridSource source{file, true};
         source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",

@@ -10,10 +10,11 @@
 
 namespace stormcellar::pipeline {
 
-// Makes a grid for each moment with new data, from the closed sweeps and the sweeps of the site's
-// last volume that they have not yet replaced. Adds the grids to the outcome's `living`. `file` is
-// the name of the raw file. Returns false if the new sweeps must be shown later, because there is
-// no time now or no grid can be made yet. Errors: those of the cache and the system.
+// Makes a grid for each moment with new data. The grid shows the complete sweeps, and those sweeps
+// of the site's last volume that these have not replaced yet. Adds the grids to the outcome's
+// `living`. `file` is the name of the raw file. Returns false if the new sweeps must be shown
+// later, because there is no time now or no grid can be made yet. Errors: those of the cache and
+// the system.
 [[nodiscard]] Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept,
                                        UnshownSweeps news, const std::string& file,
                                        IngestOutcome& outcome);

@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 using catalog::FileFacts;
 using catalog::FileState;
 
-// Returns the limits of an archive. A radar's day has some 300 volumes in 3 GB. An archive may use
-// little more memory than its largest member. Level II files are packed already, so an archive
-// unpacks to about its own size; uncompressed Level II files in it unpack to some ten times that.
+// Returns the limits of an archive. A radar's day has some 300 volumes in 3 GB. The memory limit is
+// little above the largest member. Level II files are packed already, so an archive of them unpacks
+// to about its own size; uncompressed Level II files in an archive unpack to some ten times its
+// size.
 archive::Limits limits_of(const IngestOptions& options) {
     archive::Limits limits;
     limits.archive_bytes = std::uint64_t{8} << 30;
@@ -33,7 +34,7 @@ archive::Limits limits_of(const IngestOptions& options) {
     return limits;
 }
 
-// Adds the outcome of a member to the outcome of its archive.
+// Adds the outcome of a member to the outcome of the archive.
 void add(const IngestOutcome& member, IngestOutcome& all) {
     const auto append = [](const auto& from, auto& to) {
         to.insert(to.end(), from.begin(), from.end());
@@ -64,7 +65,7 @@ std::string reason_of(const OpenArchive& open) {
     return reason;
 }
 
-// Returns the member's own time, or else its archive's.
+// Returns the member's modification time, or the archive's if the member has none.
 std::int64_t modified_ns_of(const archive::Member& member, const FileStamp& archive_stamp) {
     if (!member.modified) return archive_stamp.modified_ns;
     return std::chrono::nanoseconds{member.modified->time_since_epoch()}.count();
@@ -129,7 +130,7 @@ Result<IngestOutcome> TakeArchive::take() {
     return settle();
 }
 
-// Records that the archive is incomplete; the results of its members stay.
+// Records that the archive is incomplete. The results of its members stay.
 Result<IngestOutcome> TakeArchive::wait(std::string reason) {
     outcome_.ending = ended::Incomplete{};
     outcome_.reason = std::move(reason);

@@ -17,8 +17,8 @@ using Added = ChunkVolume::Added;
 
 }  // namespace
 
-// Returns the chunks of the volume that are still expected. None are expected once a file is quiet
-// and the volume's end has come; a volume that found no place is then read.
+// Returns which chunks of the volume are still expected. None are expected if the file has been
+// quiet and the volume's end has come; a volume that found no place is then read.
 ChunkVolumes::Expected TakeChunk::expected() const {
     using Expected = ChunkVolumes::Expected;
     switch (file_.finish) {
@@ -42,7 +42,7 @@ Result<IngestOutcome> TakeChunk::take() {
         if (!shared) return poll_for_place();
         auto volume = shared->lock();
         if (!volume->is_closed()) return add_to(shared, volume);
-        // Another worker finished the volume while this one waited for it.
+        // Another worker may have finished the volume while this worker waited for it.
         const auto settled =
             context_.catalog.is_settled(chunk_.path, stamp_.size_bytes, stamp_.modified_ns);
         if (!settled) return pass_on(settled);
@@ -68,7 +68,7 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
     if (!added) return pass_on(added);
     if (*added == Added::not_ours && volume->files().empty())
         context_.chunks.forget(chunk_, shared);
-    // If a file still holds no complete chunk when nothing more is expected, it is not a chunk.
+    // If a file holds no complete chunk even when nothing more is expected, it is not a chunk.
     const bool is_no_chunk =
         *added == Added::not_ours || (*added == Added::unfinished && file_.may_be_partial());
     if (is_no_chunk) {
@@ -91,20 +91,20 @@ Result<IngestOutcome> TakeChunk::add_to(const ChunkVolumes::Shared& shared,
 Result<IngestOutcome> TakeChunk::finish(const ChunkVolumes::Shared& shared, ChunkVolume& volume,
                                         const std::string& station) {
     // Close the volume, so that its files are joined anew if it cannot be stored. It stays known
-    // until it is finished, so that other jobs wait for it; two objects of one volume would
-    // overwrite each other's rows.
+    // until it is finished, so that other jobs wait for it. Otherwise two objects of one volume
+    // would overwrite each other's rows.
     volume.close();
     auto finished =
         finish_chunks(context_, volume, station, file_.is_the_same, std::move(outcome_));
-    // The former representative need not be polled any more.
+    // The chunk that was the representative need not be polled any more.
     if (finished) finished->former_representative = volume.take_former_representative();
     context_.chunks.forget(chunk_, shared);
     return finished;
 }
 
-// Records a chunk of a volume that has not ended. The first chunk's row describes the volume, so
-// that it can be listed and read while it grows. If the volume had ended and a late chunk reopened
-// it, its row does not change.
+// Records a chunk of a volume that has not ended. The row of the first chunk describes the volume,
+// so that the volume can be listed and read while it grows. If the volume had ended before, and a
+// late chunk reopened it, its row does not change.
 Status TakeChunk::record(const ChunkVolume& volume, const fs::path& path,
                          const std::string& station) {
     const ChunkVolume::File& file = volume.files().at(path);
@@ -136,7 +136,7 @@ Result<IngestOutcome> TakeChunk::show(const ChunkVolumes::Shared& shared, ChunkV
         if (!shown) return pass_on(shown);
         if (*shown) volume.set_shown();
     }
-    // One chunk represents the volume and is offered again.
+    // One chunk must represent the volume, so that it is offered again.
     if (!volume.has_representative()) volume.set_representative(chunk_.path);
     if (volume.is_representative(chunk_.path)) {
         outcome_.ending = ended::Incomplete{};

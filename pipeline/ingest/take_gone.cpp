@@ -7,7 +7,8 @@ namespace stormcellar::pipeline {
 
 Result<IngestOutcome> TakeGone::take(const Gone& gone) {
     if (Status marked = context_.mark_gone(file_.path); !marked) return pass_on(marked);
-    (void)context_.archives.take(file_.path, {});  // an open archive would keep its disk space
+    // While it is open, a deleted archive keeps its disk space.
+    (void)context_.archives.take(file_.path, {});
     IngestOutcome outcome;
     outcome.ending = ended::Vanished{};
     const auto shared = gone.chunk ? context_.chunks.find_known(*gone.chunk) : nullptr;

@@ -21,8 +21,8 @@ Result<IngestOutcome> TakeGrowing::take() {
     const std::filesystem::path& beneath = context_.options.beneath;
     if (!followed_) begin();
     if (!followed_) {
-        // A file that is not followed is read only when it has ended or was quiet, because reading
-        // it at every change would be useless.
+        // A file that cannot be followed is read only when it has ended or has been quiet, because
+        // reading it at every change would be useless.
         if (FollowedFile::has_ended(file_.path, growing_.start, beneath)) return take_whole();
         return context_.wait_unread(std::move(facts_), std::move(outcome_));
     }
@@ -90,7 +90,7 @@ Result<IngestOutcome> TakeGrowing::show() {
     return std::move(outcome_);
 }
 
-// Grids the volume, which has ended or was quiet; its file is no longer followed.
+// Grids the volume, which has ended or has been quiet. Its file is no longer followed.
 Result<IngestOutcome> TakeGrowing::finish(std::chrono::steady_clock::time_point start) {
     facts_.content_hash = followed_->content_hash();
     auto decoded = followed_->finish();

@@ -15,8 +15,8 @@ namespace {
 
 using catalog::FileState;
 
-// A radar's file holds one volume, but a joined file may hold the volumes of some hours, which are
-// gridded in one job.
+// A radar's file holds one volume. A joined file may hold the volumes of some hours, and one job
+// grids them all.
 constexpr std::size_t most_volumes = 64;
 
 // Returns a reason that names the station, because the row is stored among the files of unknown
@@ -27,7 +27,7 @@ std::string of_other_station(const std::string& station, const std::string& reas
     return reason.empty() ? text : text + "; " + reason;
 }
 
-// A radar's record holds 120 radials at most.
+// A file with at most this many radials may be a chunk. A radar's record holds 120 radials at most.
 constexpr std::size_t most_radials_of_a_chunk = 120;
 
 bool is_lone_chunk(const level2::Decoded& decoded) {
@@ -68,7 +68,7 @@ Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial pa
     return grid_all(volumes);
 }
 
-// Notes the report's findings about the whole file.
+// Notes what the decoder's report says about the whole file.
 void TakeVolumes::note(const level2::Decoded& decoded) {
     facts_.reason = reason_of(decoded.report);
     outcome_.lone_chunk = is_lone_chunk(decoded);
@@ -82,10 +82,10 @@ void TakeVolumes::note(const level2::Decoded& decoded) {
         reading_.troubles = level2::rda_troubles(*decoded.report.rda_status);
 }
 
-// Adds the volumes and their stations to the rows and the outcome.
+// Adds what is known about the volumes and their stations to the rows and the outcome.
 void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     for (const level2::Volume& volume : volumes) {
-        if (volume.radial_count() == 0) continue;  // metadata alone do not make a volume
+        if (volume.radial_count() == 0) continue;  // metadata without radials are no volume
         facts_.volumes.push_back(facts_of(volume, reading_.damaged));
         outcome_.newest_radial = std::max(outcome_.newest_radial, facts_.volumes.back().end_time);
     }
@@ -101,7 +101,7 @@ void TakeVolumes::describe(const std::vector<level2::Volume>& volumes) {
     outcome_.reason = facts_.reason;
 }
 
-// Returns the troubles in the form in which grids store them.
+// Returns the troubles of the radar in the form in which grids store them.
 std::vector<std::string> TakeVolumes::troubles_of(const std::string& station) const {
     if (reading_.troubles.empty()) return {};
     return {fmt::format("{}: {}", station, fmt::join(reading_.troubles, ", "))};
@@ -111,7 +111,7 @@ bool TakeVolumes::is_partial(const level2::Volume& volume) const {
     return reading_.damaged || !level2::is_complete(volume);
 }
 
-// Returns true if another file of the volume exists.
+// Returns true if another file with the same volume exists.
 Result<bool> TakeVolumes::has_rival(const level2::Volume& volume) const {
     const auto start = volume.start_time();
     const std::string station = context_.taken_station(volume.station);
@@ -133,8 +133,8 @@ Result<IngestOutcome> TakeVolumes::settle() {
     return std::move(outcome_);
 }
 
-// Settles the row in the catalog only after gridding, so that after a crash the file is gridded
-// again.
+// Grids the volumes, and only then settles the row in the catalog. So the file is gridded again
+// after a crash.
 Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
     for (const level2::Volume& volume : volumes) {
@@ -160,7 +160,7 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
     return settle();
 }
 
-// Makes the site's own grids, if such grids are made and the volume has one of the moments.
+// Makes the site's own grids, if these are made at all and the volume has one of the moments.
 Status TakeVolumes::grid(const level2::Volume& volume) {
     if (!context_.options.own_grids) {
         (void)SiteGrids::has_place(volume, outcome_);
@@ -178,8 +178,8 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
                                      context_.share_of(context_.options.grid_threads), outcome_);
 }
 
-// Makes partials and frames. If a domain cannot use the volume, the file is not rejected, because
-// its own grid is stored.
+// Makes partials and frames. If a domain cannot use the volume, does not reject the file, because
+// the site's own grid is stored.
 Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     const auto antenna = level2::antenna_position(volume);
     if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};

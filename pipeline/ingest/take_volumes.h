@@ -13,7 +13,8 @@
 
 namespace stormcellar::pipeline {
 
-// Tells take() if it may grid a volume that has not ended; otherwise the file waits for more.
+// Tells take() whether it may grid a volume that has not ended. If not, the file waits for more
+// data.
 enum class MayBePartial : bool { no, yes };
 
 class TakeVolumes {
@@ -27,11 +28,11 @@ class TakeVolumes {
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
 
   private:
-    // Findings of the decoder about the file, for all its volumes.
+    // The findings of the decoder about the file. They hold for all volumes of the file.
     struct Reading {
         bool is_complete = false;
         bool damaged = false;               // bytes were lost
-        std::vector<std::string> troubles;  // of the radar, from its last message 2
+        std::vector<std::string> troubles;  // of the radar, as its last message 2 says
     };
 
     void note(const level2::Decoded& decoded);

@@ -16,14 +16,14 @@ TakeWhole::TakeWhole(IngestContext& context, const OfferedFile& file, const Whol
 
 Result<IngestOutcome> TakeWhole::take() {
     const std::uint64_t most = context_.options.most_file_bytes;
-    // The file may have been followed until it was too large.
+    // The file may have been followed until it became too large.
     if (stamp_.size_bytes > most && context_.living) context_.living->forget(file_.path);
     if (!stamp_.regular)
         return reject({ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(stamp_.kind))});
-    // Chunks are never archives, and there are thousands of them.
+    // Do not open chunks as archives: they never are, and there are thousands of them.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
         auto archive = TakeArchive::open(context_, file_.path, stamp_);
-        // If the file no longer exists, reading it will notice.
+        // If the file no longer exists, the error appears when it is read.
         const bool is_there = archive || (archive.error().code != ErrorCode::not_found &&
                                           archive.error().code != ErrorCode::not_a_file);
         if (!archive && is_there) return take_unread(archive.error());
@@ -72,7 +72,7 @@ Result<IngestOutcome> TakeWhole::read() {
 
 // Handles a file that cannot be read, at least not now.
 Result<IngestOutcome> TakeWhole::take_unread(const Error& why) {
-    // The system is short of something, for example descriptors; the file is not to blame.
+    // The system is short of something, for example of descriptors, so the file is not to blame.
     if (why.code == ErrorCode::io || is_shortage(why.code)) return tl::unexpected<Error>(why);
     if (why.code == ErrorCode::permission) facts_.modified_ns = catalog::never_read_ns;
     return reject({why.code, without_path(why.message, file_.path)});

@@ -1,10 +1,10 @@
-// pipeline/keep/geometry_cache.h -- keeps geometry that volumes of one site on one grid share.
+// pipeline/keep/geometry_cache.h -- keeps geometry that the volumes of one site use on one grid.
 //
-// Making a geometry takes longer than using it. The least recently used geometries are dropped
-// first.
+// Making a geometry takes longer than using it. When the cache is full, the least recently used
+// geometry is dropped.
 //
-// Threads   Many threads may use it. If two threads want the same geometry at once, both may make
-//           it, and the first result is kept.
+// Threads   Many threads may use it. If two threads want the same geometry at the same time, both
+//           may make it; the first result is kept.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ namespace stormcellar::pipeline {
 
 class GeometryCache {
   public:
-    // `capacity` is the number of column geometries, which are large. All other entries take some
+    // `capacity` is the number of column geometries, which are large. Other entries take only some
     // 0.1 MiB each, so more of them are kept.
     explicit GeometryCache(std::size_t capacity) : geometries_(capacity) {}
 
@@ -45,7 +45,7 @@ class GeometryCache {
   private:
     static constexpr std::size_t small_ones = 512;
 
-    // The position of a site on a grid, without the name of the site.
+    // The position of a site on a grid. The name of the site does not matter.
     struct Place {
         grid::SitePosition site;
         grid::GridSpec spec;
@@ -80,10 +80,11 @@ class GeometryCache {
             const MutexLock lock(mutex_);
             const Value* found = values_.find(key);
             if (found == nullptr) return std::nullopt;
-            // A value may be an optional itself.
+            // The value itself may be an optional, so construct in place.
             return std::optional<Value>(std::in_place, *found);
         }
-        // Keeps the value, unless another thread has kept one meanwhile. Returns the kept value.
+        // Keeps the value and returns it. If another thread has kept one meanwhile, returns that
+        // one.
         Value keep(const Key& key, Value value) {
             const MutexLock lock(mutex_);
             if (const Value* found = values_.find(key)) return *found;

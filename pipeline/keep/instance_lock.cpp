@@ -40,7 +40,7 @@ Result<InstanceLock> InstanceLock::acquire(const std::filesystem::path& state) {
         }
         return fail(ErrorCode::io, "{}: {}", path.native(), std::system_category().message(errno));
     }
-    // The number is for people; the lock itself needs no content.
+    // Write the process number for people to read. The lock itself needs no content.
     const std::string id = fmt::format("{}\n", ::getpid());
     if (::ftruncate(file.number(), 0) != 0 ||
         ::pwrite(file.number(), id.data(), id.size(), 0) < 0) {

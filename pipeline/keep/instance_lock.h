@@ -1,4 +1,4 @@
-// pipeline/keep/instance_lock.h -- allows one daemon for each state directory.
+// pipeline/keep/instance_lock.h -- makes sure that only one daemon uses a state directory.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 
 // Holds a flock on STATE/stormcellard.lock, which contains the process id. The kernel releases the
-// lock when the process ends, even by a crash.
+// lock when the process ends, even if it crashes.
 class InstanceLock {
   public:
     static constexpr const char* file_name = "stormcellard.lock";

@@ -16,7 +16,8 @@ bool is_living(const grid::Provenance& provenance) {
                        [](const std::string& note) { return note.starts_with(living_note); });
 }
 
-// Returns a number that depends only on the cells. The numbers of two grids tell which one stays.
+// Returns a number that depends only on the cells. Of two equally good grids, these numbers decide
+// which one stays.
 std::uint64_t order_of(const grid::BrickView& view) {
     std::vector<std::uint64_t> words;
     for (const grid::BrickEntry& brick : view.bricks) {
@@ -29,7 +30,8 @@ std::uint64_t order_of(const grid::BrickView& view) {
 
 constexpr std::chrono::minutes half_an_hour{30};
 
-// The first received radial of a volume is at most this far from the time in its header.
+// The first radial that is received of a volume is at most this far from the time in the volume's
+// header.
 constexpr std::chrono::minutes farthest_radial{15};
 
 struct RadialTimes {

@@ -82,7 +82,7 @@ Result<SiteGrids::Made> SiteGrids::make(const level2::Volume& volume, level2::Mo
     return made;
 }
 
-// Audits and commits a grid. A grid that cannot be audited is committed without an audit.
+// Audits and commits a grid. If the audit fails, commits the grid without an audit.
 Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
                                    const GridSource& source, Living living,
                                    IngestOutcome& outcome) {
@@ -109,7 +109,8 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
         living == Living::yes ? cache::Durability::until_a_crash : cache::Durability::power_cut);
 }
 
-// If the cache does not keep the grid of one moment, the other moments are still gridded.
+// Grids the moments one by one. If the cache does not keep the grid of one moment, goes on with the
+// others.
 Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome) {
     if (!has_place(volume, outcome)) return {};
@@ -120,9 +121,9 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     return {};
 }
 
-// Returns the volume, or, for a derived moment, its copy in `derived` with that moment. A moment
-// that the volume does not allow to derive leaves a remark in the outcome, because the other
-// moments are still good.
+// Returns the volume. For a derived moment, returns its copy in `derived`, which has that moment.
+// If the moment cannot be derived from this volume, leaves a remark in the outcome, because the
+// other moments are still good.
 Result<SiteGrids::UsedVolume> SiteGrids::used_volume(const level2::Volume& measured,
                                                      level2::Moment moment,
                                                      const GridSource& source,
@@ -198,7 +199,7 @@ Status SiteGrids::keep_living(const level2::Volume& measured, level2::Moment mom
     const auto commit_start = Clock::now();
     auto path = commit(*made, volume, source, Living::yes, outcome);
     outcome.commit_s += seconds_since(commit_start);
-    // The grid of the complete volume will report the lack of room.
+    // Report no lack of room now. The grid of the complete volume will report it.
     if (!path && path.error().code == ErrorCode::over_budget) return {};
     if (!path) return of_storing(path.error());
     if (!path->empty()) outcome.living.push_back(std::move(*path));

@@ -1,5 +1,5 @@
-// pipeline/keep/site_grids.h -- grids volumes on their site's own grid, and puts the grids into the
-// cache. Used only inside the pipeline room.
+// pipeline/keep/site_grids.h -- grids volumes on the own grid of their site, and puts the grids
+// into the cache. Used only inside the pipeline room.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar::pipeline {
 struct GridSource {
     std::string file;  // without directories
     bool partial = false;
-    bool has_rival = false;  // as in Candidate
+    bool has_rival = false;  // another file of this volume exists
     std::vector<std::string> radar_troubles = {};
     std::vector<std::string> notes = {};
 };
@@ -36,19 +36,19 @@ class SiteGrids {
         : store_(store), options_(options) {}
 
     // Returns true if the volume has a station and the radar's position is known. Otherwise notes
-    // in the outcome what is missing.
+    // in the outcome which of them is missing.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids each of the moments that the volume holds, audits the grids and commits them. A new
-    // grid is dropped if a better one exists (pipeline/keep/keep_rule.h) or the cache's limits do
-    // not keep it; the outcome says so. The outcome also says why a moment cannot be derived, as
-    // SRV if the wind profile does not reach. Adds the paths of the grids, including better ones
-    // that stay, and the times to the outcome.
+    // Grids each of the moments that the volume holds, audits the grids, and commits them. Drops a
+    // new grid if a better one exists (pipeline/keep/keep_rule.h) or the cache's budgets do not
+    // keep it; the outcome says so. The outcome also says why a moment cannot be derived, for
+    // example SRV if the wind profile is too short. Adds to the outcome the times, and the paths of
+    // the grids, including better grids that stay.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome);
     // Grids one moment of a growing volume and commits the grid, like keep(). Neither audits nor
-    // syncs the grid, because it will be replaced in seconds and made again after a crash. Adds the
-    // path to the outcome's `living`.
+    // syncs the grid, because it is replaced in seconds and made again after a crash. Adds the path
+    // to the outcome's `living`.
     Status keep_living(const level2::Volume& measured, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
 
@@ -57,7 +57,7 @@ class SiteGrids {
         grid::Grid grid;
         grid::GridderOptions gridder;
     };
-    // A volume that holds a moment, and its source.
+    // The volume from which a moment is gridded, and its source.
     struct UsedVolume {
         const level2::Volume* volume = nullptr;  // null: the moment cannot be derived
         GridSource source;
@@ -77,23 +77,23 @@ class SiteGrids {
 
     cache::StoreWriter& store_;
     const IngestOptions& options_;
-    // The geometry of the default grid takes a few MiB.
+    // Number of geometries that are kept. The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};
-    // One thread at a time commits a grid file. The hash of the file's path selects its mutex.
+    // One thread at a time may commit a grid file. The hash of the file's path selects the mutex.
     std::array<Mutex, 16> commits_;
 };
 
-// Sets the cause of an error of gridding a decoded volume: the file, unless the code is io,
-// exhausted or no_space.
+// Sets the cause of an error of gridding a decoded volume. The cause is the file, unless the code
+// is io, exhausted or no_space.
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
-// Sets the cause of an error of writing into the cache: never the file.
+// Sets the cause of an error of writing into the cache. The cause is never the file.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
-// Notes that the cache's limits leave no room for a grid, so that an operator must change them. The
-// file is not tried again until a restart looks for missing grids.
+// Notes that the cache's budgets leave no room for a grid, so that an operator must change them.
+// The file is not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);
-// Notes that a grid is too old for the cache or, for an unknown station, that the cache has no more
-// room for unknown stations.
+// Notes that a grid is too old for the cache or, for an unknown station, that the cache has no room
+// left for unknown stations.
 void note_not_kept(const std::string& station, IngestOutcome& outcome);
 
 }  // namespace stormcellar::pipeline

@@ -21,7 +21,7 @@ namespace {
 using level2::Sweep;
 using level2::SweepMoment;
 
-// Writes a sweep as bytes, which only the same process reads.
+// Writes a sweep as bytes. Only this process will read them.
 class Writer {
   public:
     template <class T>
@@ -124,12 +124,12 @@ Result<Sweep> sweep_of(std::span<const char> bytes) {
 
 tl::unexpected<Error> system_failure(std::string_view what, int number) {
     auto failed = stormcellar::system_failure(fmt::format("{} of a growing volume", what), number);
-    // Callers take not_found to mean that a raw file is gone.
+    // Callers would read not_found as "the raw file is gone", so use io.
     if (failed.value().code == ErrorCode::not_found) failed.value().code = ErrorCode::io;
     return failed;
 }
 
-// Calls move(done) until all bytes are read or written; `done` is the number of bytes so far.
+// Calls move(done) until all bytes are read or written. `done` is the number of bytes moved so far.
 template <class Move>
 Status move_all(std::uint64_t bytes, std::string_view verb, const Move& move) {
     for (std::uint64_t done = 0; done < bytes;) {

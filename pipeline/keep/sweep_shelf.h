@@ -5,7 +5,7 @@
 // service should hold; when memory is short, the kernel can drop the file's pages from memory. A
 // sweep comes back bit for bit.
 //
-// Threads   put() by one thread at a time; get() by many, also during put().
+// Threads   One thread at a time may call put(); many threads may call get(), also during put().
 #pragma once
 
 #include <cstdint>

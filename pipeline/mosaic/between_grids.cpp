@@ -33,7 +33,8 @@ BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment momen
       geometries_(std::make_unique<GeometryCache>(kept_geometries)),
       instants_(std::make_unique<InstantCache>(kept_instants_bytes)) {}
 
-// Learns the rules of a mosaic. A frame names its overlap and has a digest of its other rules.
+// Learns the rules of a mosaic from a frame, which names its overlap and has a digest of the other
+// rules.
 Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;
@@ -96,7 +97,7 @@ Result<BetweenGrids> BetweenGrids::open(const cache::StoreReader& store, const s
     return all;
 }
 
-// Returns the last grid that is not after the instant.
+// Returns the index of the last grid whose time is not after the instant.
 std::optional<std::size_t> BetweenGrids::before(UtcTime instant) const {
     const auto after =
         std::upper_bound(grids_.begin(), grids_.end(), instant,
@@ -135,7 +136,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
         if (!file) return pass_on(file);
         files.push_back(std::move(*file));
     }
-    // If the grids have different shapes, the nearer one is used.
+    // If the grids have different shapes, use only the nearer one.
     if (has_next && grids_[*first].spec != grids_[*first + 1].spec) {
         const bool later = grids_[*first + 1].middle - instant < instant - grids_[*first].middle;
         files.erase(later ? files.begin() : files.begin() + 1);
@@ -167,7 +168,7 @@ Result<std::optional<MosaicFrame>> BetweenGrids::of_volumes(UtcTime instant) {
 }
 
 Result<std::optional<MosaicFrame>> BetweenGrids::of_partials(UtcTime instant) {
-    std::vector<std::string> damaged;  // left out, as in the domain's own frames
+    std::vector<std::string> damaged;  // to leave out, as in the domain's own frames
     auto partials = MappedPartials::open(store_, *mosaic_, moment_, instant, instant, damaged);
     if (!partials) return pass_on(partials);
     const FrameOptions options = frame_options(*mosaic_, moment_, options_.threads);

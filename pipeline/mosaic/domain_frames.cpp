@@ -11,7 +11,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Returns the starts of the volumes that have partials.
+// Returns the starts of all volumes that have partials.
 Result<std::set<UtcTime>> starts_of(const cache::StoreReader& store, const Domain& domain,
                                     level2::Moment moment) {
     std::set<UtcTime> starts;
@@ -102,7 +102,7 @@ std::vector<UtcTime> instants_between(UtcTime from, UtcTime to, std::chrono::sec
     const auto steps = (since + interval - std::chrono::milliseconds{1}) / interval;
     for (UtcTime at = UtcTime{day} + steps * interval; at <= to; at += interval) {
         instants.push_back(at);
-        // Count from midnight again, even if the interval does not divide a day.
+        // The count begins anew at midnight, even if the interval does not divide a day.
         const auto next_day = std::chrono::floor<std::chrono::days>(at) + std::chrono::days{1};
         if (at + interval > UtcTime{next_day}) at = UtcTime{next_day} - interval;
     }

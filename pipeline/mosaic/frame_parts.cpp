@@ -12,7 +12,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Hashes values as they are in memory, because only machines of one kind compare fingerprints.
+// Hashes values as they are in memory. This is enough, because only machines of one kind compare
+// fingerprints.
 class Digest {
   public:
     template <class Number>
@@ -36,7 +37,7 @@ class Digest {
     std::vector<std::byte> bytes_;
 };
 
-// Adds facts that do not depend on how the grid's file is packed.
+// Adds the facts of the cells that do not depend on how the grid's file is packed.
 void add_bricks(const grid::BrickView& view, Digest& digest) {
     digest.add(view.quantization.code_bytes);
     digest.add(view.quantization.first_value);

@@ -1,12 +1,12 @@
 // pipeline/mosaic/frame_parts.h -- records what a frame was made from, and finds what has changed
 // since. Used only inside the pipeline room.
 //
-// A frame in the cache lists the partials from which it was made, each with a fingerprint of
-// everything that affects the frame: its cells (by the checksums of its bricks), columns, site and
-// times. The frame also has its recipe, a hash of the rules of overlap and time. So when a new
-// volume comes, only the columns in which the new frame differs are merged, and the others are
-// copied (grid::update()). A fingerprint covers only the checksums of bricks, so verify the codes
-// before copying.
+// A frame in the cache lists the partials from which it was made. Each has a fingerprint of
+// everything in it that affects the frame: its cells (by the checksums of its bricks), columns,
+// site and times. The frame also has its recipe, a hash of the rules for overlap and time. So when
+// a new volume comes, only the columns in which the new frame differs must be merged; the others
+// are copied (grid::update()). A fingerprint covers only the checksums of bricks and not their
+// codes, so verify the codes before copying.
 //
 // Threads   Pure functions.
 #pragma once
@@ -21,17 +21,17 @@
 
 namespace stormcellar::pipeline {
 
-// Returns an XXH3 hash, never 0.
+// Returns the fingerprint of a partial, an XXH3 hash that is never 0.
 [[nodiscard]] std::uint64_t fingerprint_of(const PartialView& partial);
 [[nodiscard]] std::uint64_t recipe_of(const FrameOptions& options);
 
-// Returns the window of each partial, and its fingerprint. Errors: bad_argument for a partial that
+// Returns the window and the fingerprint of each partial. Errors: bad_argument for a partial that
 // is not a window of the domain.
 [[nodiscard]] Result<std::vector<grid::FramePart>> parts_of(
     const grid::GridSpec& domain, std::span<const PartialView* const> partials);
 
 // Returns the windows of all sites whose partials differ between two frames. Both lists must be
-// ordered by ICAO, then time.
+// sorted by ICAO, then time.
 [[nodiscard]] std::vector<grid::GridWindow> changed_windows(std::span<const grid::FramePart> before,
                                                             std::span<const grid::FramePart> now);
 

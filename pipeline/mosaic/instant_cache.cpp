@@ -6,7 +6,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Returns the bytes of a grid; absent bricks take no memory.
+// Returns the memory that a grid takes. Absent bricks take none.
 std::size_t bytes_of(const grid::BrickGrid& made) {
     const grid::BrickView view = made.view();
     const auto stored = std::count_if(

@@ -1,12 +1,12 @@
-// pipeline/mosaic/instant_cache.h -- keeps grids in memory that were made of one site's volumes for
-// one instant.
+// pipeline/mosaic/instant_cache.h -- keeps in memory grids that were made for an instant from the
+// volumes of one site.
 //
 // A frame is made again for each volume of any of its sites, and making a site's grid for the
-// instant costs more than all merging. So the grids of sites whose volumes have not changed are
+// instant takes longer than all merging. So the grids of sites whose volumes have not changed are
 // taken from this cache. Beyond a limit of bytes, the least recently used grids are dropped.
 //
-// Threads   Many threads may use it. If two threads want the same grid at once, both may make it,
-//           and one of the two is kept.
+// Threads   Many threads may use it. If two threads want the same grid at the same time, both may
+//           make it; one of the two is kept.
 #pragma once
 
 #include <compare>
@@ -35,7 +35,7 @@ class InstantCache {
     explicit InstantCache(std::size_t most_bytes)
         : most_bytes_(most_bytes), kept_({.weight = most_bytes}) {}
 
-    // Returns null if the grid is not kept.
+    // Returns the grid if it is kept, else null.
     [[nodiscard]] std::shared_ptr<const grid::BrickGrid> find(const Key& key);
     void keep(const Key& key, std::shared_ptr<const grid::BrickGrid> made);
     [[nodiscard]] std::size_t bytes() const;

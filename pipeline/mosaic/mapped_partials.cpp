@@ -11,15 +11,16 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// If a station has more open partials than this, the partials that cannot count are closed.
+// If a station has more open partials than this, the ones that cannot contribute to a frame are
+// closed.
 constexpr std::size_t most_open = 24;
 
 UtcTime middle_of_file(const OpenPartial& partial) {
     return PartialView{&partial.file.description(), {}, nullptr}.middle();
 }
 
-// Closes partials that are neither the last before an instant nor the first after it, as in
-// brackets_of().
+// Closes all partials but the last before an instant and the first after it, which are those that
+// brackets_of() takes.
 void keep_brackets(const std::vector<UtcTime>& instants, std::vector<OpenPartial>& files) {
     std::set<std::size_t> needed;
     for (const UtcTime instant : instants) {
@@ -80,7 +81,8 @@ Status MappedPartials::load(std::vector<std::string>& problems) {
             if (bad_.contains(entry.path)) continue;
             auto file = cache::GridFile::open(entry.path);
             if (!file && file.error().code == ErrorCode::io)
-                file = cache::GridFile::open(entry.path);  // try again: a disk may fail once
+                // Try again, because a disk may fail once.
+                file = cache::GridFile::open(entry.path);
             if (!file && ends_it(file.error()))
                 return fail(is_shortage(file.error().code) ? file.error().code : ErrorCode::io,
                             "{}", file.error().message);
@@ -131,7 +133,7 @@ Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
         bad_.insert(path);
     }
     if (bad_.size() == known) return false;
-    // Without the damaged partials, others may count.
+    // If damaged partials were dropped, others may contribute in their place.
     if (Status loaded = load(problems); !loaded) return pass_on(loaded);
     return true;
 }

@@ -1,10 +1,10 @@
-// pipeline/mosaic/mapped_partials.h -- the partials of a domain near a time, from their files. Used
+// pipeline/mosaic/mapped_partials.h -- opens the files of a domain's partials near a time. Used
 // only inside the pipeline room.
 //
-// Each partial holds a descriptor and a map. Only partials that may count within 35 minutes of the
-// requested times are opened. A radar has at most some twenty of these. If a station has more than
-// 24, only the last partial before each frame and the first one after it stay open, so a flood of
-// volumes does not use up the descriptors.
+// Each partial holds a descriptor and a map. Only partials within 35 minutes of the requested
+// times, which may contribute, are opened. A radar has some twenty of these at most. If a station
+// has more than 24, only the last partial before each frame and the first one after it stay open,
+// so that a flood of volumes does not use up the descriptors.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -20,15 +20,15 @@
 
 namespace stormcellar::pipeline {
 
-// The longest time from a volume's start, by which its grid is named, to its middle.
+// The longest time from the start of a volume, which names its grid, to the volume's middle.
 inline constexpr std::chrono::milliseconds longest_to_middle = std::chrono::minutes{10};
 
 // Returns the names of a domain's partials: "NAME.ICAO". Errors: the cache cannot be read.
 [[nodiscard]] Result<std::vector<std::string>> partial_domains(const cache::StoreReader& store,
                                                                const std::string& domain);
 
-// The treatment of a partial that cannot be read. A daemon leaves the partial out, so that it does
-// not hold up the frames of other radars; a caller that makes each frame once gets an error.
+// Says what happens if a partial cannot be read. A daemon leaves it out, so that it does not hold
+// up the frames of other radars. A caller that makes each frame once gets an error.
 enum class Unreadable { is_left_out, is_an_error };
 
 struct OpenPartial {
@@ -38,8 +38,8 @@ struct OpenPartial {
 
 class MappedPartials {
   public:
-    // Opens the partials that may count for an instant from `from` to `to`. Partials that cannot be
-    // opened are named in `problems`; partials of another grid are left out. `store` and `domain`
+    // Opens the partials that may contribute at an instant from `from` to `to`. Names partials that
+    // cannot be opened in `problems`. Leaves out partials of another grid. `store` and `domain`
     // must outlive the object. Errors: the cache cannot be read; a shortage, for example of
     // descriptors; with Unreadable::is_an_error, io for a partial that cannot be read.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
@@ -47,12 +47,13 @@ class MappedPartials {
                                        std::vector<std::string>& problems,
                                        Unreadable unreadable = Unreadable::is_left_out);
 
-    // Returns the open partials, valid until drop_damaged() drops one.
+    // Returns the open partials. They are valid until drop_damaged() drops one.
     [[nodiscard]] std::vector<PartialView> views() const;
-    // Returns ok if no file was truncated while it was read.
+    // Returns ok if no file has been truncated while it was open.
     [[nodiscard]] Status check_whole() const;
-    // Verifies all partials, drops the damaged ones and names them in `problems`. Then opens
-    // partials that may count instead. Returns false if none was damaged. Errors: as in open().
+    // Verifies all partials, drops the damaged ones, and names them in `problems`. Then opens
+    // partials that may contribute in their place. Returns false if none was damaged. Errors: as in
+    // open().
     Result<bool> drop_damaged(std::vector<std::string>& problems);
 
   private:
@@ -64,7 +65,7 @@ class MappedPartials {
     level2::Moment moment_ = level2::Moment::ref;
     UtcTime from_, to_;
     Unreadable unreadable_ = Unreadable::is_left_out;
-    std::set<std::filesystem::path> bad_;  // cannot be opened, or damaged
+    std::set<std::filesystem::path> bad_;  // partials that cannot be opened, or are damaged
     std::vector<OpenPartial> files_;
 };
 

@@ -86,7 +86,8 @@ accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain, const grid:
 grid::Quantization quantization_of(level2::Moment moment, bool fine) {
     grid::Quantization quantization = grid::default_quantization(moment);
     if (!fine) return quantization;
-    // The least value stays the same. The largest value exceeds all values that radars send.
+    // The smallest value stays the same. The largest value still exceeds all values that radars
+    // send.
     quantization.step /= quantization.code_bytes == 1 ? 64 : 16;
     quantization.code_bytes = 2;
     return quantization;

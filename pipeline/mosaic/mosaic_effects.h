@@ -1,13 +1,14 @@
-// pipeline/mosaic/mosaic_effects.h -- the steps of making a frame of several sites, the ways to do
-// each (rungs), and the effects that better rungs include. The steps of gridding
-// (grid/plan/grid_effects.h), the same for all volumes, come first. The steps of merging follow:
+// pipeline/mosaic/mosaic_effects.h -- defines the steps of making a frame of several sites, the
+// ways to do each step (rungs), and the effects that better rungs include. First come the steps of
+// gridding (grid/plan/grid_effects.h), which are the same for all volumes, and then the steps of
+// merging:
 //
 //   step      rungs, from cheap to exact                     effects that reach them
 //   time      nearest, blend, advected                       time_blend, echo_motion
-//   sweeps    as one, each at its own time                   sweep_times
-//   overlap   the nearest site, the rule asked for           site_overlap
+//   sweeps    all at one time, each at its own time             sweep_times
+//   overlap   the nearest site, the requested rule              site_overlap
 //   codes     default steps, fine steps                      fine_codes
-// The user chooses the rule by which sites overlap; if that rule is the nearest site, the step has
+// The user chooses the rule by which sites overlap. If this rule is the nearest site, the step has
 // no effect. The exact rung of `time` uses the motion that the default grids show.
 //
 // Threads   Pure functions.
@@ -21,7 +22,7 @@
 
 namespace stormcellar::pipeline {
 
-// The names of the steps of merging; grid::step has the names of the steps of gridding.
+// The names of the steps of merging. grid::step has the names of the steps of gridding.
 namespace step {
 inline constexpr std::string_view time = "time";
 inline constexpr std::string_view sweeps = "sweeps";
@@ -40,7 +41,7 @@ struct MosaicChoice {
     bool operator==(const MosaicChoice&) const = default;
 };
 
-// Returns the chain of steps with their names, rungs and sentences; the steps of gridding come
+// Returns the chain with the names, rungs and sentences of its steps. The steps of gridding come
 // first.
 [[nodiscard]] accuracy::Chain mosaic_effects_of(level2::Moment moment, grid::Averaging averaging,
                                                 grid::Overlap overlap);
@@ -49,17 +50,17 @@ struct MosaicChoice {
                                          const accuracy::Choice& choice);
 
 // Returns the choice that applies without a budget: the default of gridding, advected, each sweep
-// at its own time, the requested rule of overlap, default codes. The settings of the chain's
-// effects override it.
+// at its own time, the requested rule of overlap, and default codes. If effects of the chain have
+// settings, these override it.
 [[nodiscard]] accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain,
                                                      const grid::GridSpec& domain,
                                                      double beam_width_deg);
 
-// Returns the default quantization of the moment. If `fine`, returns two bytes with a 64th of the
-// default step, or a 16th if the default has two bytes.
+// Returns the default quantization of the moment. If `fine`, returns codes of two bytes, whose step
+// is a 64th of the default step, or a 16th if the default also has two bytes.
 [[nodiscard]] grid::Quantization quantization_of(level2::Moment moment, bool fine);
 
-// Returns the options with the rungs of the choice.
+// Returns the options, changed to the rungs of the choice.
 [[nodiscard]] PartialOptions with_choice(PartialOptions options, const MosaicChoice& choice);
 [[nodiscard]] FrameOptions with_choice(FrameOptions options, const MosaicChoice& choice);
 

@@ -21,10 +21,11 @@ grid::TimedView timed(const PartialView& partial) {
     return {partial.view, partial.middle(), partial.description->provenance.sweeps};
 }
 
-// One site's share of a frame: a partial unchanged, or a grid made of two partials for the instant.
+// One site's share of a frame: a partial, unchanged, or a grid for the instant that was made of two
+// partials.
 struct SiteShare {
     const PartialView* nearest = nullptr;
-    const PartialView* before = nullptr;  // `before` and `after` are both set, or neither
+    const PartialView* before = nullptr;  // `before` and `after` are either both set or both null
     const PartialView* after = nullptr;
     bool nothing_after = false;  // the site has no volume after the instant yet
     InstantCache::Key key;       // the key of `made`
@@ -37,15 +38,15 @@ struct SiteShare {
     }
 };
 
-// Returns true if both partials have the same window and codes. Windows differ if the site moved,
-// and codes if the configuration was changed.
+// Returns true if both partials have the same window and the same codes. Windows differ if the site
+// moved, and codes if the configuration was changed.
 bool is_pair(const PartialView& before, const PartialView& after) {
     return *before.view.spec == *after.view.spec &&
            before.view.quantization == after.view.quantization;
 }
 
-// Returns a site's share. The share is the nearer partial, unchanged, if the method asks for that,
-// if there is only one partial, or if the two are no pair (is_pair()).
+// Returns a site's share. It is the nearer partial, unchanged, if the method asks for that, if
+// there is only one partial, or if the two cannot be mixed (is_pair()).
 SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime instant,
                    grid::TimeMethod method) {
     SiteShare share;
@@ -61,7 +62,8 @@ SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime 
     return share;
 }
 
-// Returns a share for each site that has a partial near the instant. Errors: not_found if none has.
+// Returns a share for each site that has a partial near the instant. Errors: not_found if no site
+// has.
 Result<std::vector<SiteShare>> shares_of(std::span<const PartialView> partials, UtcTime instant,
                                          const FrameOptions& options) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
@@ -128,8 +130,8 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
     return {};
 }
 
-// Collects texts, each once, in order. Texts beyond a limit are only counted, because a frame's
-// file holds at most 1 MiB of texts and each partial adds some.
+// Collects texts, each once, in order. Beyond a limit, only counts further texts: the file of a
+// frame holds at most 1 MiB of texts, and each partial adds some.
 class TextsOnce {
   public:
     TextsOnce(std::size_t most_bytes, std::string_view kind)
@@ -156,6 +158,7 @@ class TextsOnce {
 };
 
 // The texts of a frame, with their limits. A thousand partials with the usual notes and radar
+// troubles are well below these limits.
 // troubles need less.
 struct FrameTexts {
     TextsOnce source_files{std::size_t{192} << 10, "volumes"};
@@ -200,8 +203,8 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// Returns the windows in which the new frame differs from the previous one; none if nothing can be
-// copied from the previous frame.
+// Returns the windows in which the new frame differs from the previous one. Returns none if nothing
+// can be copied from the previous frame.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,
@@ -244,7 +247,7 @@ Status make_shares(std::vector<SiteShare>& shares, UtcTime instant, const FrameO
     return {};
 }
 
-// Describes everything but the cells, and sets the key of each share for the InstantCache.
+// Describes everything but the cells. Also sets the key of each share in the InstantCache.
 Result<cache::GridDescription> describe_shares(const grid::GridSpec& domain,
                                                std::vector<SiteShare>& shares, UtcTime instant,
                                                const FrameOptions& options) {
@@ -286,13 +289,13 @@ Result<cache::GridDescription> describe_shares(const grid::GridSpec& domain,
 grid::Partial placed(const grid::GridSpec& domain, const SiteShare& share,
                      GeometryCache& geometries) {
     grid::Partial partial{share.view(), share.nearest->site()};
-    // If a grid is not a window of the domain, merge() reports the error.
+    // If a grid is not a window of the domain, merge() will report the error.
     const auto window = grid::window_of(domain, *partial.view.spec);
     if (window) partial.distance = geometries.distance(domain, *window, partial.site);
     return partial;
 }
 
-// Returns the options of the audit. Four gates for each cell are enough if cells are wide.
+// Returns the options of the audit. If cells are wide, four gates for each cell are enough.
 grid::AuditOptions audit_options(const grid::GridSpec& domain) {
     grid::AuditOptions options;
     const double cell_m = std::min(domain.cell_width_m(), domain.cell_height_m());

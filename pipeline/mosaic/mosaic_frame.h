@@ -1,15 +1,15 @@
 // pipeline/mosaic/mosaic_frame.h -- merges the grids of several sites into one grid for an instant.
 //
-// Each volume is gridded once, on its site's window of the domain's grid. The result is called a
-// partial; the daemon keeps it in the cache, and the command line in memory. For each site, a frame
-// takes the partials before and after the instant and makes one grid of them for the instant
-// (grid/mosaic/time_interpolation.h); then it merges the grids of all sites
-// (stormcellar/grid/mosaic.h). The same partials and options give the same bytes, wherever they
-// come from.
+// Each volume is gridded once, on the window of the domain's grid that its site may see. The result
+// is called a partial; the daemon keeps it in the cache, and the command line in memory. To make a
+// frame, the partials before and after the instant are made into one grid for the instant, for each
+// site (grid/mosaic/time_interpolation.h). Then the grids of all sites are merged
+// (stormcellar/grid/mosaic.h). The same partials and options always give the same bytes.
 //
 // If a frame for the same instant was made before, only the bricks that changed partials touch are
-// merged, and the other bricks are copied, which gives the same bytes at lower cost. A frame is
-// provisional while a site has no volume after the instant, because a later volume will change it.
+// merged, and the other bricks are copied. This gives the same bytes in less time. A frame is
+// provisional while one of its sites has no volume after the instant, because a later volume will
+// change it.
 //
 // Threads   Functions without state, except for the caches, which many threads may share.
 #pragma once
@@ -33,7 +33,7 @@
 
 namespace stormcellar::pipeline {
 
-// Options for making partials of volumes.
+// Options for making a partial of a volume.
 struct PartialOptions {
     grid::GridderOptions gridder;
     grid::Quantization quantization;
@@ -41,12 +41,12 @@ struct PartialOptions {
     double reach_m = grid::site_reach_m;
 };
 
-// The bricks of one volume on the domain's window of its site.
+// The bricks of one volume on the window of its site.
 struct MadePartial {
     cache::GridDescription description;
     grid::BrickGrid bricks;
 };
-// Makes a partial. Returns none if the site does not reach the domain. The caller fills in the
+// Makes a partial. Returns none if the site does not reach the domain. The caller must add the
 // source files. Errors: those of make_grid().
 [[nodiscard]] Result<std::optional<MadePartial>> make_partial(const level2::Volume& volume,
                                                               const grid::SitePosition& site,
@@ -58,8 +58,8 @@ struct MadePartial {
 struct PartialView {
     const cache::GridDescription* description = nullptr;
     grid::BrickView view;
-    // The file of the view, which is verified before its cells are used. Null: the partial is in
-    // memory.
+    // The file in which the cells are. It is verified before its cells are used. Null: the partial
+    // is in memory.
     const cache::GridFile* file = nullptr;
 
     [[nodiscard]] const grid::SitePosition& site() const { return description->sites.front(); }
@@ -68,7 +68,7 @@ struct PartialView {
     }
 };
 
-// The motion of the echo by ICAO; none: unknown.
+// The motion of the echo at each site, by ICAO; none: it is unknown.
 using Motions = std::map<std::string, std::optional<grid::MotionField>>;
 
 struct FrameOptions {
@@ -77,13 +77,13 @@ struct FrameOptions {
     bool sweep_times = true;
     // A partial whose middle is farther from the instant is not used.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
-    // The result of estimate_motions(), which must outlive the call; the echo of sites that it does
-    // not have does not move. Null: motions are estimated from the partials.
+    // The result of estimate_motions(). It must outlive the call. At a site that it does not have,
+    // echo does not move. Null: motions are estimated from the partials.
     const Motions* motions = nullptr;
     int threads = 1;
 };
 
-// Indices into the partials, for one site.
+// The partials of one site before and after the instant, as indices.
 struct Bracket {
     std::optional<std::size_t> before, after;
 };
@@ -99,20 +99,20 @@ struct Bracket {
                                                UtcTime instant, level2::Moment moment,
                                                const FrameOptions& options);
 
-// The partials from which make_frame() makes a frame, as its provenance lists them, and a hash of
-// the rules. Frames with the same FrameRecipe are identical to the byte.
+// The partials from which make_frame() makes a frame, as the frame's provenance lists them, and a
+// hash of the rules. Frames with the same FrameRecipe have the same bytes.
 struct FrameRecipe {
     std::vector<grid::FramePart> parts;
     std::uint64_t recipe = 0;
 };
-// Returns the recipe of a frame without reading cells. Errors: those of make_frame(), except those
-// of cells.
+// Returns the recipe of a frame, without reading cells. Errors: those of make_frame() that do not
+// come from cells.
 [[nodiscard]] Result<FrameRecipe> recipe_for(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options);
 
-// Returns the description that make_frame() gives the frame, without reading cells. Errors: those
-// of recipe_for().
+// Returns the description that make_frame() gives to the frame, without reading cells. Errors:
+// those of recipe_for().
 [[nodiscard]] Result<cache::GridDescription> describe_frame(const grid::GridSpec& domain,
                                                             std::span<const PartialView> partials,
                                                             UtcTime instant,
@@ -121,7 +121,7 @@ struct FrameRecipe {
 struct MosaicFrame {
     cache::GridDescription description;
     grid::Mosaic mosaic;
-    // The windows whose bricks were merged, if the other bricks were copied; none: all bricks were
+    // The windows whose bricks were merged; the other bricks were copied. None: all bricks were
     // merged.
     std::optional<std::vector<grid::GridWindow>> merged;
 };
@@ -134,18 +134,18 @@ struct PreviousFrame {
     grid::BrickView cells;
 };
 
-// Earlier results that may be reused, which save time and do not change the frame's bytes.
+// Earlier results that may be reused. They save time and do not change the bytes of the frame.
 struct MadeBefore {
-    // Any earlier frame; its parts (pipeline/mosaic/frame_parts.h) show how much of it can be
+    // Any earlier frame. Its parts (pipeline/mosaic/frame_parts.h) show how much of it can be
     // reused.
     const PreviousFrame* frame = nullptr;
-    // The grids of sites for instants (pipeline/mosaic/instant_cache.h).
+    // Grids of single sites for an instant (pipeline/mosaic/instant_cache.h).
     InstantCache* instants = nullptr;
 };
 
-// Makes a frame. Errors: not_found if no site has a partial near the instant; the error of a
-// partial's file that does not verify (its path begins the message); those of grid_at() and
-// merge().
+// Makes a frame. Errors: not_found if no site has a partial near the instant; if the file of a
+// partial does not verify, that error, with the file's path at the start of the message; those of
+// grid_at() and merge().
 [[nodiscard]] Result<MosaicFrame> make_frame(const grid::GridSpec& domain,
                                              std::span<const PartialView> partials, UtcTime instant,
                                              const FrameOptions& options, GeometryCache& geometries,

@@ -16,9 +16,9 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Windows of a large domain take some 15 MiB each.
+// Number of windows that are kept. For a large domain, each takes some 15 MiB.
 constexpr std::size_t kept_geometries = 16;
-// A site's grid of a domain of 1000 km at 1 km takes 3 to 10 MiB.
+// Limit of the kept grids. One site's grid in a domain of 1000 km at 1 km takes 3 to 10 MiB.
 constexpr std::size_t kept_instants_bytes = std::size_t{192} << 20U;
 
 std::string site_domain(const std::string& domain, const std::string& icao) {
@@ -42,8 +42,9 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
     return options;
 }
 
-// The span of the frames that a new volume changes: from the previous volume of its site to the
-// next, but at most greatest_frame_gap to each side, and within the times of all partials.
+// The time span of the frames that a new volume changes. It goes from the previous volume of the
+// site to the next one, but at most greatest_frame_gap to each side, and not beyond the times of
+// all partials.
 struct Span {
     UtcTime from, to;
 };
@@ -64,7 +65,7 @@ Span span_changed_by(const cache::GridDescription& changed,
     return span;
 }
 
-// Returns true if another try may succeed, because the system refused something.
+// Returns true if another try may succeed, because the system only refused something.
 bool may_pass(const Error& error) {
     return error.cause() != Cause::data && error.code != ErrorCode::over_budget &&
            error.code != ErrorCode::bad_argument && error.code != ErrorCode::not_found;
@@ -75,8 +76,8 @@ bool is_damage(const Error& error) {
            error.code == ErrorCode::io;
 }
 
-// Returns the partials without those of late machines. A station stays if another machine has
-// brought a newer volume of it.
+// Returns the partials without those of late machines. The partials of a station stay if another
+// machine has brought a newer volume of it.
 std::vector<PartialView> without(const std::vector<LateMachine>& late,
                                  std::vector<PartialView> partials) {
     for (const LateMachine& machine : late) {
@@ -105,7 +106,7 @@ MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
-// If one domain has an error, continues with the other domains.
+// Makes partials and frames in each domain. If one domain has an error, continues with the others.
 Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
@@ -155,7 +156,7 @@ Status MosaicMaker::keep(const Domain& domain, level2::Moment moment, const Volu
     if (*reason) return {};
     const auto committed = store_->commit(name, description, (*made)->bricks.view());
     if (!committed) return of_storing(committed.error());
-    if (committed->empty()) return {};  // older than the cache's limits allow
+    if (committed->empty()) return {};  // the grid is older than the cache's budgets allow
     remove_other_times(*store_, name, moment, source.volume, source.file);
     keep_to_an_hours_volumes(*store_, name, moment, description.time);
     kept.partials.push_back(*committed);
@@ -188,7 +189,7 @@ Status MosaicMaker::refresh(const Domain& domain, level2::Moment moment,
     return {};
 }
 
-// Makes a frame without the partials that turn out to be damaged. CacheMender repairs them.
+// Makes a frame without the partials that turn out to be damaged. CacheMender repairs these.
 Result<MosaicFrame> MosaicMaker::frame_of_sound(const FrameJob& job, MappedPartials& partials,
                                                 const std::vector<LateMachine>& late,
                                                 const PreviousFrame* previous,
@@ -209,7 +210,7 @@ Result<FrameMade> MosaicMaker::make(const FrameJob& job, MappedPartials& partial
     const auto path = store_->path_of(job.domain.name, job.moment, job.instant);
     if (!path) return pass_on(path);
     const auto stands = cache::GridFile::open(*path);
-    // Do not copy from a damaged frame, because its bricks would get new checksums.
+    // Do not copy from a damaged frame, because copied bricks would get new checksums.
     const bool sound = stands && stands->verify();
     const PreviousFrame previous =
         sound ? PreviousFrame{&stands->description(), stands->view()} : PreviousFrame{};
@@ -240,8 +241,8 @@ void MosaicMaker::finish(cache::GridDescription& frame,
         frame.provenance.left_out.push_back(machine.text());
 }
 
-// Returns true if the frame is due and is missing, lacks a partial, or describes an earlier state
-// of its partials. A frame whose partials have left the cache is not stale.
+// Returns true if the frame is due and is missing, lacks a partial, or was made of an earlier state
+// of its partials. A frame is not stale because its partials have left the cache.
 Result<bool> MosaicMaker::is_stale(const FrameJob& job, const MappedPartials& partials) const {
     const auto views = partials.views();
     if (!lies_between(views, job.instant)) return false;

@@ -1,12 +1,12 @@
 // pipeline/mosaic/mosaic_scene.h -- makes the frame of one instant from volumes of several sites
-// over one domain, by any choice, so that the accuracy planner can measure frames
+// over one domain, by any choice. The accuracy planner measures frames with it
 // (pipeline/plan/mosaic_plan.h).
 //
-// Only the volumes next to the instant are used. They are gridded once for each choice of gridding,
-// and the results of the last two choices are kept. The motion of echo is estimated once, from the
-// default grids, and used for every frame, so that a rung's error contains no error of motion.
+// Only the volumes next to the instant are used. They are gridded once for each choice of gridding;
+// the results of the last two choices are kept. The motion of the echo is estimated once, from the
+// default grids, and is used for every frame. So the error of a rung contains no error of motion.
 //
-// Threads   One thread at a time; a scene starts up to `threads` threads of its own.
+// Threads   One thread at a time. A scene starts up to `threads` threads of its own.
 #pragma once
 
 #include <string>
@@ -21,17 +21,17 @@
 
 namespace stormcellar::pipeline {
 
-// One volume of a site, and facts about its raw file.
+// A volume of a site, with facts about its raw file.
 struct SceneVolume {
     const level2::Volume* volume = nullptr;
     grid::SitePosition site;
-    std::string file;  // the name for errors; its last part goes into the provenance
+    std::string file;  // name in errors; its last part goes into the provenance
     bool partial = false;
     std::vector<std::string> notes;
 };
 
-// Makes the partials of the volumes, in order, each on its site's window of the domain. Errors name
-// the file: those of make_partial(); bad_argument for a site that sees nothing of the domain.
+// Makes the partials of the volumes, in order, each on the window of its site. Errors name the
+// file: those of make_partial(); bad_argument for a site that sees nothing of the domain.
 [[nodiscard]] Result<std::vector<MadePartial>> make_partials(std::span<const SceneVolume> volumes,
                                                              const grid::GridSpec& domain,
                                                              const PartialOptions& options,
@@ -39,17 +39,17 @@ struct SceneVolume {
 
 [[nodiscard]] std::vector<PartialView> views_of(const std::vector<MadePartial>& partials);
 
-// Returns the instant for a mosaic of these partials: the middle between the earliest and the
-// latest of the sites' newest partials, by their middles. If that instant is more than
-// `greatest_gap` from these two, returns the middle of the newest partial, because volumes far
-// apart in time cannot be blended.
+// Returns the instant for a mosaic of these partials. Take the middles of the sites' newest
+// partials: the instant is half way between the earliest and the latest of these. If that is more
+// than `greatest_gap` from both, returns the latest, because volumes that far apart cannot be
+// blended.
 [[nodiscard]] UtcTime instant_of_newest(
     std::span<const PartialView> partials,
     std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap);
 
 struct MosaicSceneOptions {
-    FrameOptions frame;      // time, sweeps and motions are set by the choice and the scene
-    PartialOptions partial;  // likewise method, frame and quantization
+    FrameOptions frame;      // the choice and the scene set its time, sweeps and motions
+    PartialOptions partial;  // the choice sets its method, frame and quantization
     std::optional<UtcTime> instant = std::nullopt;  // none: instant_of_newest()
 };
 
@@ -68,24 +68,26 @@ class MosaicScene {
                                                   const accuracy::Chain& chain,
                                                   const MosaicSceneOptions& options);
 
-    // Returns the frame of a choice, with the same bytes each time.
+    // Returns the frame of a choice. It has the same bytes each time.
     [[nodiscard]] Result<MosaicFrame> frame(const MosaicChoice& choice);
-    // Returns the partials of the volumes in use, gridded and quantized by the choice.
+    // Returns the partials of the volumes that are used. The choice decides how they are gridded
+    // and quantized.
     [[nodiscard]] Result<const std::vector<MadePartial>*> partials(const MosaicChoice& choice);
 
-    // Forgets the kept partials of this choice's gridding, so that they are made anew.
+    // Forgets the partials that are kept for the gridding of this choice. They are made anew when
+    // needed.
     void forget(const MosaicChoice& choice);
 
     // Returns the volumes next to the instant, which the frames use.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
-    // Returns the brackets of the sites, as indexes into volumes(). A pair is a bracket with both
-    // volumes.
+    // Returns the brackets of the sites, as indices into volumes(). A bracket that has both volumes
+    // is a pair.
     [[nodiscard]] const std::vector<Bracket>& brackets() const { return brackets_; }
     [[nodiscard]] std::size_t pair_count() const;
     [[nodiscard]] const Motions& motions() const { return motions_; }
-    // Returns the time for estimating the motions: processor time for one thread, wall time for
-    // several.
+    // Returns how long it took to estimate the motions. The time is processor time for one thread,
+    // and wall time for several.
     [[nodiscard]] double motion_seconds() const { return motion_s_; }
     [[nodiscard]] double now_s() const;
     [[nodiscard]] const grid::GridSpec& domain() const { return domain_; }
@@ -94,7 +96,7 @@ class MosaicScene {
     [[nodiscard]] const MosaicChoice& default_choice() const { return default_; }
 
   private:
-    // The choices on which partials depend.
+    // The choices that affect partials.
     struct Gridding {
         grid::SceneChoice choice;
         bool fine_codes = false;

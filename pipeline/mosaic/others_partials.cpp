@@ -1,4 +1,4 @@
-// This file takes in partials that other machines made (MosaicMaker::take_partial()).
+// Takes in partials that other machines made (MosaicMaker::take_partial()).
 #include <algorithm>
 #include <chrono>
 #include <string_view>
@@ -14,18 +14,19 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Limits of a partial (a part of its frames), far above real ones. They keep the texts of a frame
-// small and quick to process.
-constexpr std::size_t most_notes = 64;  // of notes, and of troubles of the radar
-constexpr std::size_t most_files = 8;   // of source files, and of stations
+// Limits of what a partial may have, far above real numbers. They keep the texts of a frame small
+// and quick to process.
+constexpr std::size_t most_notes = 64;  // each: notes, and troubles of the radar
+constexpr std::size_t most_files = 8;   // each: source files, and stations
 constexpr std::size_t most_sweeps = 256;
 constexpr std::size_t most_audit_rows = 64;
 constexpr std::size_t most_text_bytes = 1024;
 
-// The first and the last radial of a volume are within minutes of its start.
+// The first and the last radial of a volume must be this close to its start; in real volumes they
+// are within minutes.
 constexpr std::chrono::hours farthest_radial_of_part{1};
 
-// Returns the name of a list that is too long in a partial's provenance; empty if there is none.
+// Returns the name of a list in a partial's provenance that is too long, or an empty text.
 std::string_view excess_of(const grid::Provenance& part) {
     if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
     if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";
@@ -62,7 +63,8 @@ Status check_records(const OthersPartial& partial, const cache::GridDescription&
     return {};
 }
 
-// Checks that the grid's description fits its name, and that the grid is a window of this domain.
+// Checks that the description of a grid fits the grid's name, and that the grid is a window of this
+// domain.
 Status check(const OthersPartial& partial, const cache::GridDescription& grid,
              const Domain& domain) {
     const std::string station = partial.name.domain.substr(domain.name.size() + 1);
@@ -91,8 +93,8 @@ bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
            one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
 }
 
-// Checks that the partial can be merged with others, because a merge refuses the whole frame if one
-// partial does not match.
+// Checks that the partial can be merged with others. If one partial does not match, merge() refuses
+// the whole frame.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                    const Domain& domain) {
     const cache::GridDescription& grid = file.description();
@@ -109,7 +111,7 @@ Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
         return fail(ErrorCode::corrupt, "{}: its columns are not whole bricks of the domain {}",
                     partial.file.native(), domain.name);
     }
-    // A merge keeps geometry as large as the window, so limit the window.
+    // Limit the window, because a merge keeps geometry that is as large as the window.
     if (!reach || !is_within(*window, *reach)) {
         return fail(ErrorCode::corrupt, "{}: its columns are further than {} reaches",
                     partial.file.native(), grid.sites.front().icao);
@@ -168,7 +170,7 @@ Result<Kept> MosaicMaker::take_partial(const OthersPartial& partial, int threads
         (void)store_->remove(entry);
         return pass_on(whole);
     }
-    if (committed->empty()) return kept;  // older than the cache's limits allow
+    if (committed->empty()) return kept;  // the grid is older than the cache's budgets allow
     kept.partials.push_back(*committed);
     keep_to_an_hours_volumes(*store_, partial.name.domain, partial.name.moment, partial.name.time);
     const Status made =

@@ -17,13 +17,14 @@ using grid::GridWindow;
 
 constexpr double greatest_range_m = grid::ComparisonOptions{}.greatest_range_m;
 
-// A part of a partial, with the age of its cells.
+// A part of a partial, with the ages of its cells.
 struct Cut {
     grid::BrickGrid bricks;
     grid::CellDetails ages;
 };
 
-// Returns the window that both sites may see, with `margin` bricks around it; none if it is empty.
+// Returns the window that both sites may see, with `margin` bricks around it. Returns none if no
+// column is in it.
 std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::SitePosition& a,
                                         const grid::SitePosition& b, int margin) {
     const auto about_a = grid::site_window(spec, a, greatest_range_m);
@@ -42,8 +43,8 @@ std::optional<GridWindow> common_window(const grid::GridSpec& spec, const grid::
     return GridWindow{x0, y0, x1 - x0, y1 - y0};
 }
 
-// Returns the ages in seconds after the instant. Without dated sweeps, the whole partial has the
-// time of its volume's middle.
+// Returns the ages of cells, in seconds after the instant. If the sweeps are undated, every cell
+// has the time of its volume's middle.
 Result<grid::CellDetails> ages_of(const PartialView& partial, const grid::GridSpec& spec,
                                   UtcTime instant) {
     const grid::SitePosition& site = partial.site();

@@ -7,7 +7,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// The newest frames of a domain are provisional, so this many are examined.
+// Number of newest frames to examine, because the newest ones of a domain are provisional.
 constexpr std::size_t frames_looked_at = 24;
 
 bool has_reflectivity(const Domain& domain) {
@@ -42,7 +42,7 @@ Result<std::optional<SiteWatch::CompleteFrame>> SiteWatch::newest_complete(
     for (auto entry = entries->rbegin(); entry != entries->rend(); ++entry) {
         if (++looked_at > frames_looked_at) break;
         const auto file = cache::GridFile::open(entry->path);
-        if (!file) continue;  // damaged; CacheMender repairs it
+        if (!file) continue;  // the frame is damaged; CacheMender repairs it
         const grid::Provenance& provenance = file->description().provenance;
         if (provenance.provisional || provenance.parts.empty()) continue;
         return CompleteFrame{&domain, file->description()};
@@ -50,7 +50,7 @@ Result<std::optional<SiteWatch::CompleteFrame>> SiteWatch::newest_complete(
     return std::optional<CompleteFrame>{};
 }
 
-// Marks the pair as compared by this frame.
+// Marks the pair as compared at the instant of this frame.
 std::optional<SiteWatch::Pair> SiteWatch::take_due(const CompleteFrame& frame) {
     const auto& sites = frame.description.sites;
     const UtcTime now = frame.description.time;

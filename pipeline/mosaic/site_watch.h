@@ -1,9 +1,9 @@
-// pipeline/mosaic/site_watch.h -- compares the overlapping sites of the mosaics in the cache from
-// time to time.
+// pipeline/mosaic/site_watch.h -- compares, from time to time, the overlapping sites of the mosaics
+// in the cache.
 //
-// Takes the newest frame of a domain that is not provisional, and compares each pair of its sites
-// that may overlap by the frame's partials (pipeline/mosaic/pair_comparison.h). A pair is compared
-// again only for a frame that is at least an hour later. So pairs are not compared while older data
+// Takes the newest frame of a domain that is not provisional. Its partials show which of its sites
+// may overlap; each such pair is compared (pipeline/mosaic/pair_comparison.h). A pair is compared
+// again only for a frame that is at least an hour later. So nothing is compared while older data
 // are replayed.
 //
 // Threads   One thread at a time.
@@ -25,7 +25,7 @@ struct PairReport {
     std::string domain;
     UtcTime instant;  // of the frame
     grid::SiteComparison found;
-    std::vector<std::string> faults;  // those that grid::faults() names
+    std::vector<std::string> faults;  // the faults that grid::faults() names
 };
 
 class SiteWatch {
@@ -35,8 +35,8 @@ class SiteWatch {
     // The store must outlive the object.
     SiteWatch(const cache::StoreReader& store, std::vector<Domain> domains);
 
-    // Compares the next pair that is due; returns none if no pair is due. A pair that cannot be
-    // compared, for example because a partial is gone or damaged, is skipped until an hour later.
+    // Compares the next pair that is due. Returns none if no pair is due. If a pair cannot be
+    // compared, for example because a partial is gone or damaged, skips it until an hour later.
     // Errors: the cache cannot be read.
     Result<std::optional<PairReport>> compare_next();
 
@@ -53,7 +53,7 @@ class SiteWatch {
 
     const cache::StoreReader& store_;
     std::vector<Domain> domains_;  // domains with reflectivity
-    // The instant of the frame last compared, by domain and pair.
+    // The instant of the frame at which each pair was last compared, by domain and pair.
     std::map<std::pair<std::string, Pair>, UtcTime> compared_;
 };
 

@@ -95,8 +95,8 @@ void read_spacing(TomlTable& table, GridSpec& spec) {
     spec.spacing_m = grid::metres_of_km(km.value_or(1));
 }
 
-// Returns the number of columns or rows that cover `cells` cells; an excess of a millionth of a
-// cell counts as rounding.
+// Returns the number of whole columns or rows that cover `cells` cells. An excess of a millionth of
+// a cell counts as rounding.
 int cells_over(TomlTable& table, std::string_view key, double cells) {
     const double whole = std::ceil(cells - 1e-6);
     if (whole >= 1 && whole <= GridSpec::greatest_side) return static_cast<int>(whole);
@@ -105,8 +105,8 @@ int cells_over(TomlTable& table, std::string_view key, double cells) {
     return 1;
 }
 
-// Sets the size so that the grid contains the bounds, with as many columns on one side of the
-// center as on the other.
+// Sets the size so that the grid contains the bounds. The grid has equally many columns on both
+// sides of the center.
 void size_by_bounds(TomlTable& table, const std::array<double, 4>& bounds, GridSpec& spec) {
     if (spec.in_degrees()) {
         spec.nx = cells_over(table, "bounds", width_deg(bounds) / spec.spacing_deg);

@@ -1,6 +1,7 @@
-// pipeline/options/domain.h -- a named region with a grid spec that the daemon keeps gridded.
+// pipeline/options/domain.h -- a domain: a named region with a grid spec, which the daemon keeps
+// gridded.
 //
-// Domains are read from [[domain]] tables (daemon/stormcellard.toml explains every key).
+// [[domain]] tables define the domains (daemon/stormcellard.toml explains every key).
 //
 // Units     Distances are kilometers in the file and meters here.
 // Threads   Plain data.
@@ -27,8 +28,8 @@ struct Domain {
     std::string name;
     grid::GridSpec spec;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    std::vector<std::string> stations;     // empty: each station that reaches it
-    std::chrono::seconds interval{300};    // from frame to frame, counted from midnight UTC
+    std::vector<std::string> stations;     // empty: every station that reaches the domain
+    std::chrono::seconds interval{300};    // between frames, counted from midnight UTC
     std::optional<grid::Overlap> overlap;  // none: the moment's default
     double overlap_length_m = 250'000;
     grid::TimeMethod time = grid::TimeMethod::advected;
@@ -37,37 +38,38 @@ struct Domain {
     bool operator==(const Domain&) const = default;
 };
 
-// Tells when frames of the domains are made.
+// Says when the frames of domains are made.
 enum class FramesWhen {
-    volume_comes,  // at once when a volume changes them, as the daemon does
-    asked_for,     // only by MosaicMaker::make_again(), so that an archive makes each frame once
+    volume_comes,  // at once when a new volume changes them; the daemon does this
+    asked_for,     // by MosaicMaker::make_again(); an archive makes each frame once
 };
 
-// West, south, east and north in degrees. Across the antimeridian, west is greater than east.
+// West, south, east and north, in degrees. West is greater than east if the bounds cross the
+// antimeridian.
 using Bounds = std::array<double, 4>;
 [[nodiscard]] bool is_bounds(const Bounds& bounds);  // true if in range and not empty
 [[nodiscard]] double width_deg(const Bounds& bounds);
 [[nodiscard]] grid::GeoPoint middle_of(const Bounds& bounds);
-// Returns the largest distances, along x and y in columns of the spec, from the spec's center to
-// the boundary of the bounds. The spec's nx and ny do not matter. Errors: those of
+// Returns the largest distances from the spec's center to the boundary of the bounds, along x and
+// along y, in columns of the spec. The spec's nx and ny do not matter. Errors: those of
 // grid::validate().
 [[nodiscard]] Result<grid::ColumnPoint> half_columns_of(const grid::GridSpec& spec,
                                                         const Bounds& bounds);
 
 // Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list of
-// numbers. Returns none if the key is absent or, with a complaint, if its value has another form.
-// Complains about an empty list, but returns it.
+// numbers. Returns none if the key is absent. Complains about another form of the value, and
+// returns none. Complains about an empty list, but returns it.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
-// Returns the moment of this name, or none, with a complaint about the key.
+// Returns the moment of this name. If there is none, complains about the key and returns none.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,
                                                         const std::string& name);
-// Reads a list of moments and drops repeated ones. Returns none if the key is absent or, with a
-// complaint, if its value is not a list of texts. Complains about unknown names, which are left
-// out, and about an empty list.
+// Reads a list of moments, and drops repeated ones. Returns none if the key is absent. Complains if
+// the value is not a list of texts, and returns none. Complains about unknown names, which it
+// leaves out, and about an empty list.
 [[nodiscard]] std::optional<std::vector<level2::Moment>> read_moments(TomlTable& table,
                                                                       std::string_view key);
 
-// Reads all [[domain]] tables. Complains about invalid domains, but returns them, too, so check
+// Reads all [[domain]] tables. Complains about invalid domains, but returns them as well, so check
 // TomlFile::finish().
 [[nodiscard]] std::vector<Domain> read_domains(TomlTable& root);
 

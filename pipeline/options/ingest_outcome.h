@@ -15,27 +15,27 @@
 
 namespace stormcellar::pipeline {
 
-// The ways in which ingesting a file can end. ended::X below has the facts that belong to only one
-// ending.
+// The ways in which ingesting a file can end. Facts that only one of these ways has are in ended::X
+// below.
 enum class IngestResult {
-    // Registered, and the cache has the site's own grid of some volume, or the cache's limits do
-    // not keep that grid. If no own grids are made, a partial counts instead.
+    // Registered, and the cache has the site's own grid of a volume of the file, or the cache's
+    // budgets do not keep that grid. If sites' own grids are not made, a partial counts instead.
     gridded,
-    no_moment,      // registered; there is nothing to grid, for example no sweep of the moments
-    no_position,    // registered; neither the file nor the table gives the position of the radar
-    other_station,  // registered; its station's data are not accepted, so nothing is gridded
-    // Not settled: the volume has not ended and finish_as_is is false, or the file changed while it
-    // was read, or an archive has more members than one turn takes. Offer the file again when it
-    // was closed or is quiet, or at once if has_next_turn is true.
+    no_moment,      // registered, but nothing to grid: no sweep has the moments
+    no_position,    // registered, but neither the file nor the table has the position
+    other_station,  // registered, but not gridded: its station is not accepted
+    // Not settled, because the volume has not ended and finish_as_is is false, or the file changed
+    // while it was read, or an archive has more members than one turn takes. Offer the file again
+    // when it was closed or has been quiet, or at once if has_next_turn is true.
     incomplete,
-    rejected,   // registered as rejected: no volume, or none that can be gridded
+    rejected,   // registered as rejected: has no volume that can be gridded
     unchanged,  // settled before; nothing was done
-    // The file is gone, and its rows, if any, are marked as gone. If it represents a volume of
-    // chunks that may continue, the result is `incomplete` instead; then offer it again although it
-    // is gone.
+    // The file is gone, and its rows, if any, are marked as gone. But if the file represents a
+    // volume in chunks that may continue, the result is `incomplete`; then offer the file again
+    // although it is gone.
     vanished,
-    // Registered, and nothing else is to do: the Ingestor has no cache, or the file is a chunk of a
-    // growing volume that another chunk represents.
+    // Registered, and nothing else must be done: the Ingestor has no cache, or the file is a chunk
+    // of a growing volume that another chunk represents.
     registered,
 };
 
@@ -55,12 +55,12 @@ using Registered = WithoutFacts<IngestResult::registered>;
 
 struct Incomplete {
     static constexpr IngestResult result = IngestResult::incomplete;
-    bool is_followed = false;    // the next call will read only appended data
+    bool is_followed = false;    // the next call will read only what is appended
     bool has_next_turn = false;  // this is an archive that can continue at once
 };
 struct Rejected {
     static constexpr IngestResult result = IngestResult::rejected;
-    ErrorCode with = ErrorCode::internal;  // the code of the error that is the reason
+    ErrorCode with = ErrorCode::internal;  // the code of the error that caused it
 };
 
 }  // namespace ended
@@ -79,36 +79,37 @@ struct IngestOutcome {
     std::string station;                   // empty: unknown, or not accepted
     std::optional<UtcTime> volume_time;    // start of the first volume
     std::optional<UtcTime> newest_radial;  // by the radar's clock; only plausible times
-    std::string reason;  // of a rejection, or another remark on the file; one line
-    // The file looks like one chunk of a volume, but does not have the name of a chunk.
+    std::string reason;                    // why it was rejected, or another remark; one line
+    // True if the file looks like one chunk of a volume, but is not named like a chunk.
     bool lone_chunk = false;
 
     // Grids of the file's volumes.
     bool partial = false;                         // some gridded volume was incomplete or damaged
-    std::vector<std::filesystem::path> grids;     // new ones, and better ones that stay
+    std::vector<std::filesystem::path> grids;     // new grids, and better grids that stay
     std::vector<std::filesystem::path> partials;  // for mosaics (pipeline/mosaic/mosaic_maker.h)
     std::vector<std::filesystem::path> frames;    // of mosaics, made again with these partials
-    bool no_room = false;                         // the cache's limits left no room for some grid
-    int not_kept = 0;  // sites' own grids that the cache's limits do not keep, for any reason
+    bool no_room = false;                         // the cache's budgets left no room for some grid
+    int not_kept = 0;  // number of own grids of sites that the cache's budgets do not keep
 
     // State of the file's volume, if it grows or grew.
-    bool goes_on = false;  // the volume is followed, and a sweep of it has closed
+    bool goes_on = false;  // the volume is followed, and one of its sweeps is complete
     std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
     bool living_left_out = false;               // there was no time for living grids
-    std::vector<int> missing_chunks;            // numbers that a finished volume of chunks lacks
-    // The number of growing volumes that were given up because a limit was reached. Their sweeps on
-    // disk are gone, and they are read again from their files.
+    // Numbers of the chunks that a finished volume lacks.
+    std::vector<int> missing_chunks;
+    // Number of growing volumes that were given up because of a limit. Their sweeps on disk are
+    // gone, and they are read again from their files.
     std::uint64_t given_up = 0;
-    // The chunk that represented the volume until this one came.
+    // The chunk that represented the volume until this chunk came.
     std::filesystem::path former_representative;
 
     // Time that each step took.
     double read_s = 0, decode_s = 0, grid_s = 0, commit_s = 0, mosaic_s = 0;
 };
 
-// The result for a file that was only noted, not read.
+// The result for a file that was only noted, and not read.
 enum class Noted {
-    stands,  // call Ingestor::ingest() for the file
+    stands,  // the file must still be passed to Ingestor::ingest()
     gone,    // the file is gone, and nothing is left to do
 };
 

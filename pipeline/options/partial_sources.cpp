@@ -7,7 +7,8 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A picture, which shows this text, has no room for the names of all stations of a machine.
+// Number of stations that the text names. A picture shows this text, and has no room for more
+// names.
 constexpr std::size_t most_named = 6;
 
 }  // namespace

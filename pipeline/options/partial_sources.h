@@ -1,10 +1,10 @@
 // pipeline/options/partial_sources.h -- records which machines bring partials of mosaics, and tells
 // which of them are late.
 //
-// A machine is late for a frame if the newest of its volumes is older than the frame by more than
-// the allowed time. The frame then leaves out the machine's stations that no timely machine brings,
-// and says so. Lateness depends only on the times of volumes, not on a clock, so a frame does not
-// depend on who makes it or when.
+// A machine is late for a frame if its newest volume is older than the frame by more than the
+// allowed time. The frame then leaves out the stations of this machine that no timely machine
+// brings, and says so. Lateness depends only on the times of volumes, and not on a clock. So a
+// frame does not depend on who makes it or when.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,9 +25,9 @@ namespace stormcellar::pipeline {
 
 struct LateMachine {
     std::string name;
-    std::set<std::string> stations;  // those that no timely machine brings; not empty
-    UtcTime newest;                  // middle of its newest volume
-    // Returns "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
+    std::set<std::string> stations;  // its stations that no timely machine brings; not empty
+    UtcTime newest;                  // middle of the machine's newest volume
+    // Returns a text such as "north (KFWS KTLX): nothing since 2013-05-20T20:04:00Z".
     [[nodiscard]] std::string text() const;
 };
 
@@ -35,15 +35,15 @@ class PartialSources {
   public:
     explicit PartialSources(std::chrono::seconds late_after) : late_after_(late_after) {}
 
-    // Notes that a machine brought a partial of this station; `middle` is its volume's middle.
+    // Notes that a machine brought a partial of this station. `middle` is the middle of its volume.
     void brought(const std::string& machine, const std::string& domain, level2::Moment moment,
                  const std::string& station, UtcTime middle);
-    // Returns the machines that are late for a frame and bring stations that no timely machine
-    // brings, by name.
+    // Returns, by name, the machines that are late for a frame and bring stations that no timely
+    // machine brings.
     [[nodiscard]] std::vector<LateMachine> late_for(const std::string& domain,
                                                     level2::Moment moment, UtcTime instant) const;
-    // Returns the middle of the newest volume that a machine brought for any mosaic; none if it
-    // brought none.
+    // Returns the middle of the newest volume that a machine brought for any mosaic. Returns none
+    // if the machine brought nothing.
     [[nodiscard]] std::optional<UtcTime> newest_of(const std::string& machine) const;
 
   private:

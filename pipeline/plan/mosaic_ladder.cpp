@@ -10,12 +10,12 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// A row, the frame with which it is compared, and the work that is timed for it.
+// A row of the ladder, the frame with which it is compared, and the work whose time it states.
 struct Rung {
     accuracy::LadderRow row;
     MosaicChoice with_errors;
     MosaicChoice with_times;
-    bool grids = false;  // its time includes gridding
+    bool grids = false;  // the time includes gridding
 };
 
 std::vector<Rung> rungs_of_steps(const MosaicScene& scene, const accuracy::Chain& chain) {
@@ -73,7 +73,8 @@ std::vector<Rung> rungs_of_chains(const MosaicScene& scene, const accuracy::Chai
     return rungs;
 }
 
-// Times all rungs in rounds, one rung after the other. Calls `one_done` after each rung.
+// Times all rungs in rounds. Each round runs one rung after the other. Calls `one_done` after each
+// rung.
 Status time_all(MosaicScene& scene, int rounds, const std::function<void()>& one_done,
                 std::vector<Rung>& rungs) {
     Status status;
@@ -91,7 +92,8 @@ Status time_all(MosaicScene& scene, int rounds, const std::function<void()>& one
         accuracy::time_in_rounds(works, rounds, [&scene] { return scene.now_s(); });
     if (!status) return status;
     for (std::size_t at = 0; at < rungs.size(); ++at) {
-        // Add the time of estimating the motion, which the scene did before any frame.
+        // Add the time for estimating the motion, because the scene did that before it made a
+        // frame.
         const bool moves = rungs[at].with_times.time == grid::TimeMethod::advected;
         const double motion_s = moves ? scene.motion_seconds() : 0;
         rungs[at].row.time_s = timings[at].first_s + motion_s;
@@ -125,7 +127,7 @@ Result<std::vector<accuracy::LadderRow>> run_ladder(
         rung.row.status = found->status;
         one_done();
     }
-    // Single steps come first, so that the partials that they share are kept.
+    // Measure single steps first, so that the partials that they share are kept.
     const auto chains = std::stable_partition(rungs.begin(), rungs.end(),
                                               [](const Rung& rung) { return !rung.grids; });
     std::vector<Rung> whole(std::make_move_iterator(chains), std::make_move_iterator(rungs.end()));

@@ -1,17 +1,18 @@
-// pipeline/plan/mosaic_ladder.h -- measures the time that accuracy costs in merging volumes into a
-// frame, rung by rung, for the steps of pipeline/mosaic/mosaic_effects.h that are not in
-// grid/plan/grid_ladder.h.
+// pipeline/plan/mosaic_ladder.h -- measures the time that accuracy costs when volumes are merged
+// into a frame. It does so rung by rung, for the steps of pipeline/mosaic/mosaic_effects.h that
+// grid/plan/grid_ladder.h does not have.
 //
 // Each of these steps has a row for each rung. A row has the difference between two frames, over
-// all cells with a value in both: the frame with this rung and every other step exact, and the
-// frame of the exact chain. The row also has the time of making a frame from kept partials, with
-// the other steps at their default. Rows of the step "chain" are whole chains; their time includes
-// gridding every volume. Times are processor time for one thread, wall time for several.
+// all cells with a value in both. One frame has this rung, and every other step exact; the other is
+// the frame of the exact chain. The row also has the time of making a frame from kept partials,
+// with the other steps at their default. Rows of the step "chain" are whole chains; their time
+// includes gridding every volume. Times are processor time for one thread, and wall time for
+// several.
 //
 // A position error is the distance that the fastest echo moves (pipeline/plan/mosaic_plan.h). Whole
-// chains have no position error, because the error of beams is of another kind.
+// chains have no position error, because the position error of beams is of another kind.
 //
-// Threads   Those of the scene.
+// Threads   As for the scene.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +25,8 @@
 
 namespace stormcellar::pipeline {
 
-// Measures the ladder. `chain` must come from mosaic_effects_of(). Each time is the least of
-// `rounds` timings. `progress`, if set, is called from the calling thread after each frame. Errors:
+// Measures the ladder. `chain` must come from mosaic_effects_of(). Each time is the smallest of
+// `rounds` timings. `progress`, if set, is called after each frame, on the calling thread. Errors:
 // those of the scene.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(
     MosaicScene& scene, const accuracy::Chain& chain, int rounds,

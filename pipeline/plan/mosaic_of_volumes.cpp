@@ -14,7 +14,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Returns the default choice with the beam width of this site's radar.
+// Returns the default choice, with the beam width of the radar at this site.
 MosaicChoice default_choice_at(const MosaicRequest& request, const grid::SitePosition& site) {
     return mosaic_choice(request.chain, default_mosaic_choice(request.chain, request.domain,
                                                               grid::beam_width_of(site.icao)));
@@ -58,8 +58,8 @@ grid::Grid dense_grid_of(const MosaicFrame& frame) {
     grid.frame_time = frame.description.time;
     grid.sites = frame.description.sites;
     grid.provenance = frame.description.provenance;
-    // The count and the weight of a cell that no site sees are 0, the value that to_dense() gives
-    // cells without a value.
+    // If no site sees a cell, its count and weight must be 0. to_dense() gives this value to cells
+    // without a value.
     if (frame.mosaic.counts) {
         const grid::Grid counts = grid::to_dense(frame.mosaic.counts->view());
         grid.site_counts.assign(counts.values.begin(), counts.values.end());

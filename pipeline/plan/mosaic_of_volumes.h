@@ -1,7 +1,7 @@
 // pipeline/plan/mosaic_of_volumes.h -- merges decoded volumes of several sites, or of several
-// times, into one grid for one instant, by the defaults or as the accuracy planner chooses.
+// times, into one grid for one instant. The defaults or the accuracy planner decide how.
 //
-// Thread contract: each call works alone; it starts up to `frame.threads` threads of its own.
+// Thread contract: each call is independent. It starts up to `frame.threads` threads of its own.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ struct MosaicRequest {
     grid::GridSpec domain;
     accuracy::Chain chain;                   // from mosaic_effects_of(), with the requested
                                              // settings
-    FrameOptions frame;                      // the chain's choice overrides its rungs
-    PartialOptions partial;                  // likewise
+    FrameOptions frame;                      // the choice overrides what the chain decides
+    PartialOptions partial;                  // the choice overrides what the chain decides
     std::optional<UtcTime> instant;          // none: instant_of_newest()
     bool is_planned = false;                 // predict the size of each effect for these volumes
     std::optional<accuracy::Budget> budget;  // needs a plan
@@ -40,14 +40,14 @@ struct MosaicOfVolumes {
 // make_partials(), make_frame() and plan_mosaic().
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request);
-// Grids the volumes and merges them, like the function above, with geometries that several calls
-// share. A plan uses its own geometries.
+// Grids the volumes and merges them, like the function above. Several calls share the geometries. A
+// plan uses geometries of its own.
 [[nodiscard]] Result<MosaicOfVolumes> make_mosaic(const std::vector<SceneVolume>& volumes,
                                                   const MosaicRequest& request,
                                                   GeometryCache& geometries);
 
-// Returns one partial for each volume, gridded by the chain's settings and otherwise by the
-// defaults. Errors: those of make_partials().
+// Returns one partial for each volume. It is gridded by the settings of the chain, and otherwise by
+// the defaults. Errors: those of make_partials().
 [[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
                                                             const MosaicRequest& request,
                                                             GeometryCache& geometries);
@@ -57,7 +57,7 @@ struct MosaicOfVolumes {
 [[nodiscard]] Result<MosaicScene> scene_of(const std::vector<SceneVolume>& volumes,
                                            const MosaicRequest& request);
 
-// The capacity of the GeometryCache of a call that gets none.
+// The capacity of the GeometryCache if the caller passes none.
 inline constexpr std::size_t mosaic_geometries = 4;
 
 }  // namespace stormcellar::pipeline

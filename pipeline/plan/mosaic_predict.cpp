@@ -12,14 +12,14 @@ namespace stormcellar::pipeline {
 namespace {
 
 // Times of making a site's grid between two of its volumes, and of merging. The unit is the time of
-// gridding one volume by nearest gates (grid/plan/grid_effects.cpp; docs/accuracy.md).
+// gridding one volume with nearest gates (grid/plan/grid_effects.cpp; docs/accuracy.md).
 constexpr double blend_effort = 2.5;
 constexpr double motion_effort = 4.5;
 constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
-// Returns a step of merging; the chain of a mosaic has all of them.
+// Returns the step of merging with this name. The chain of a mosaic has all of them.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
@@ -31,7 +31,7 @@ Result<double> p99_between(const MosaicFrame& a, const MosaicFrame& b, int threa
     return summary ? summary->p99 : 0;
 }
 
-// The steps of gridding, predicted for each volume separately.
+// The sizes for the steps of gridding. They are predicted for each volume separately.
 class GriddingSizes {
   public:
     GriddingSizes(MosaicScene& scene, const grid::PlanOptions& options,
@@ -82,7 +82,7 @@ class GriddingSizes {
         return chain;
     }
 
-    // Adds the prediction of one volume: a size becomes the largest of all volumes, and times are
+    // Adds the prediction for one volume. The size is the largest of all volumes, and times are
     // added up.
     static void add(const accuracy::Chain& one, bool first, accuracy::Chain& all) {
         for (std::size_t i = 0; i < one.steps.size(); ++i) {
@@ -105,7 +105,7 @@ class GriddingSizes {
             all.joint_costs[pair].cost_s += one.joint_costs[pair].cost_s;
     }
 
-    // Divides the costs, each predicted for one thread, by the number of threads.
+    // Divides the costs by the number of threads, because each is predicted for one thread.
     void share_costs(accuracy::Chain& chain) const {
         const double threads = std::max(1, scene_.options().partial.gridder.threads);
         for (accuracy::Step& step : chain.steps) {
@@ -125,7 +125,7 @@ class GriddingSizes {
 
 struct TimedFrame {
     MosaicFrame frame;
-    double seconds = 0;  // without gridding
+    double seconds = 0;  // not counting gridding
 };
 
 Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
@@ -137,8 +137,8 @@ Result<TimedFrame> timed_frame(MosaicScene& scene, const MosaicChoice& choice) {
     return TimedFrame{std::move(*frame), scene.now_s() - start_s};
 }
 
-// Measures one step from its exact rung downward, with every other step of merging exact; all
-// frames use `gridding` in fine codes.
+// Measures one step, from its exact rung down to the cheapest. Every other step of merging is
+// exact. All frames use `gridding` and fine codes.
 Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::SceneChoice& gridding,
                     std::string_view name, accuracy::Chain& chain) {
     const std::size_t index = accuracy::find_step(chain, name).value();
@@ -163,8 +163,8 @@ Status predict_step(MosaicScene& scene, const TimedFrame& exact, const grid::Sce
     return {};
 }
 
-// Sets the size of the codes: each rounding moves a value by at most half a step, and a mean of
-// values by no more.
+// Sets the size of the effect of codes. Each rounding moves a value by at most half a step, and a
+// mean of values by no more than that.
 void set_codes(const MosaicScene& scene, const TimedFrame& fine, const TimedFrame& coarse,
                accuracy::Chain& chain) {
     const level2::Moment moment = scene.options().partial.gridder.moment;
@@ -210,7 +210,7 @@ Status predict_merging(MosaicScene& scene, accuracy::Chain& chain) {
     step_named(chain, step::sweeps).effects[0].predicted.position_m = moved.within_volume_m;
     step_named(chain, step::time).effects[1].cost_s += scene.motion_seconds();
     set_efforts(scene, chain);
-    // Add the time of the cheapest frame without its gridding.
+    // Add the time of the cheapest frame, not counting its gridding.
     MosaicChoice cheapest = coarse;
     cheapest.time = grid::TimeMethod::nearest;
     cheapest.sweep_times = false;
