@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "base/degree.h"
+#include "retrieve/dealias/velocity_sheet.h"
 #include "stormcellar/grid/beam_geometry.h"
 
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr float least_nyquist_mps = 1, most_nyquist_mps = 200;
 constexpr double most_mps = 110;  // faster gates are damage or wrong fold numbers
 constexpr std::size_t azimuth_steps = 3600;
 constexpr double widest_step_deg = 3;  // radials farther apart have a gap between them
@@ -23,7 +23,7 @@ float turned(float azimuth_deg) {
 // Moves a velocity by whole turns until it is nearest to the expected one, unless that is NaN.
 double nearest(double velocity_mps, double expected_mps, float turn_mps) {
     const auto turn = static_cast<double>(turn_mps);
-    return std::abs(expected_mps - velocity_mps) <= turn / 2 || std::isnan(expected_mps)
+    return std::isnan(expected_mps) || std::abs(expected_mps - velocity_mps) <= turn / 2
                ? velocity_mps
                : velocity_mps + turn * std::round((expected_mps - velocity_mps) / turn);
 }
@@ -41,10 +41,7 @@ std::vector<std::size_t> usable_radials(const level2::Sweep& sweep,
                                         const level2::SweepMoment& moment) {
     std::vector<std::size_t> usable;
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
-        const level2::Radial& of = sweep.radials[radial];
-        if (moment.gate_counts[radial] > 0 && of.nyquist_mps >= least_nyquist_mps &&
-            of.nyquist_mps <= most_nyquist_mps && std::isfinite(of.azimuth_deg) &&
-            std::isfinite(of.elevation_deg))
+        if (moment.gate_counts[radial] > 0 && can_be_unfolded(sweep.radials[radial]))
             usable.push_back(radial);
     }
     std::ranges::stable_sort(
@@ -173,8 +170,10 @@ void PolarVelocity::refold(const std::function<double(double x_m, double y_m)>& 
 
 std::size_t PolarVelocity::differences(const PolarVelocity& other) const {
     std::size_t count = 0;
-    for (std::size_t i = 0; i < bins_.size(); ++i)
-        if (std::abs(bins_[i] - other.bins_[i]) > 1) ++count;
+    for (std::size_t i = 0; i < bins_.size(); ++i) {
+        const float moved_mps = std::abs(bins_[i] - other.bins_[i]);
+        count += (std::isnan(moved_mps) ? 0 : moved_mps) > 1 ? 1 : 0;
+    }
     return count;
 }
 

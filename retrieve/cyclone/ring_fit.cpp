@@ -195,8 +195,8 @@ double series_at(const RingSeries& series, double cosine, double sine) {
 
 std::optional<RingFit> fit_ring(const PolarVelocity& field, const RingRequest& request) {
     const double distance = std::hypot(request.center.x_m, request.center.y_m);
+    if (!(request.radius_m > 0 && request.radius_m < most_reach * distance)) return std::nullopt;
     const double r = request.radius_m / distance;
-    if (!(request.radius_m > 0) || !(r < most_reach)) return std::nullopt;
     std::vector<Point> points = points_of(field, request);
     RingFit fit;
     fit.coverage = static_cast<double>(points.size()) / request.samples;

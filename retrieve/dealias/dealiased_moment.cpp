@@ -32,7 +32,8 @@ constexpr std::uint16_t ambiguous_code = 2;
 std::uint16_t dealiased_code(const SweepMoment& raw, std::uint16_t code, float nyquist_mps,
                              int fold, bool is_ambiguous) {
     if (code < level2::facts_of(raw.moment).first_valid_code) return code;
-    const float velocity = raw.value_of(code) + 2 * static_cast<float>(fold) * nyquist_mps;
+    const float turned = fold == 0 ? 0 : 2 * static_cast<float>(fold) * nyquist_mps;
+    const float velocity = raw.value_of(code) + turned;
     const bool has_value = !is_ambiguous && std::abs(velocity) <= greatest_mps;
     if (!has_value) return ambiguous_code;
     return static_cast<std::uint16_t>(std::lrint(velocity * steps_per_mps + code_of_zero));
@@ -80,9 +81,8 @@ bool needs_dealiasing(const level2::Volume& volume) {
     constexpr std::int64_t pairs_per_jump = 10'000;
     std::int64_t pairs = 0, jumps = 0;
     const auto meet = [&](float a, float b) {
-        const float apart = std::abs(a - b);
-        pairs += std::isnan(apart) ? 0 : 1;
-        jumps += apart > 0.5F ? 1 : 0;
+        pairs += std::isnan(a - b) ? 0 : 1;
+        jumps += turns_apart(a, b) > 0.5F ? 1 : 0;
     };
     for (const VelocitySheet& sheet : velocity_sheets(volume)) {
         for (int radial = 0; radial < sheet.radials; ++radial) {

@@ -59,9 +59,8 @@ class RegionFinder {
                 }
                 const std::int8_t third = third_of(first);
                 std::int32_t end = gate + 1;
-                while (end < sheet_.gates &&
-                       third_of(row[static_cast<std::size_t>(end)]) == third &&
-                       !std::isnan(row[static_cast<std::size_t>(end)]))
+                while (end < sheet_.gates && !std::isnan(row[static_cast<std::size_t>(end)]) &&
+                       third_of(row[static_cast<std::size_t>(end)]) == third)
                     ++end;
                 found_.runs.push_back({radial, gate, end, 0});
                 thirds_.push_back(third);

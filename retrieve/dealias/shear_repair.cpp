@@ -91,9 +91,10 @@ class ShearRepair {
             const float* here = unfolded.row(radial);
             const float* beside = unfolded.row_after(radial);
             for (int gate = first; gate < first + UnfoldedSheet::run_gates; ++gate) {
-                for (const float apart : {here[gate] - here[gate + 1], here[gate] - beside[gate]}) {
-                    block.pairs += std::isnan(apart) ? 0 : 1;
-                    block.jumps += std::abs(apart) > UnfoldedSheet::jump_turns ? 1 : 0;
+                for (const float other : {here[gate + 1], beside[gate]}) {
+                    block.pairs += std::isnan(here[gate] - other) ? 0 : 1;
+                    const bool is_jump = turns_apart(here[gate], other) > UnfoldedSheet::jump_turns;
+                    block.jumps += is_jump ? 1 : 0;
                 }
             }
         }
@@ -127,7 +128,7 @@ class ShearRepair {
         const int first = run * UnfoldedSheet::run_gates;
         for (int gate = first; gate < first + UnfoldedSheet::run_gates; ++gate) {
             const auto mark_both = [&](int other_radial, int other_gate, float value) {
-                if (!(std::abs(here[gate] - value) > UnfoldedSheet::jump_turns)) return;
+                if (turns_apart(here[gate], value) <= UnfoldedSheet::jump_turns) return;
                 mark_about(sheet_.at(radial, gate), is_marked);
                 mark_about(sheet_.at(other_radial, other_gate), is_marked);
             };

@@ -1,6 +1,5 @@
 #include "retrieve/dealias/unfolded_sheet.h"
 
-#include <cmath>
 #include <limits>
 
 namespace stormcellar::retrieve {
@@ -31,8 +30,8 @@ void UnfoldedSheet::mark_runs(int radial) {
     for (int run = 0; run < runs_; ++run, here += run_gates, beside += run_gates) {
         int rough = 0, jumps = 0;
         for (int gate = 0; gate < run_gates; ++gate) {
-            const float along = std::abs(here[gate] - here[gate + 1]);
-            const float across = std::abs(here[gate] - beside[gate]);
+            const float along = turns_apart(here[gate], here[gate + 1]);
+            const float across = turns_apart(here[gate], beside[gate]);
             rough += along > rough_turns ? 1 : 0;
             jumps += (along > jump_turns ? 1 : 0) + (across > jump_turns ? 1 : 0);
         }

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/floating_point.h"
+
 namespace stormcellar::retrieve {
 namespace {
 
-// Range of Nyquist velocities. Values outside it are damage, because no radar has them.
-constexpr float least_nyquist_mps = 1, most_nyquist_mps = 200;
 constexpr double most_turns = 100;
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
@@ -76,15 +76,19 @@ VelocitySheet sheet_of(const level2::Sweep& sweep, const level2::SweepMoment& mo
 
 }  // namespace
 
+bool can_be_unfolded(const level2::Radial& radial) {
+    return is_within(radial.nyquist_mps, least_nyquist_mps, most_nyquist_mps) &&
+           std::isfinite(radial.azimuth_deg) && std::isfinite(radial.elevation_deg);
+}
+
 std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep, std::size_t moment_index) {
     std::vector<VelocitySheet> sheets;
     const level2::SweepMoment& moment = sweep.moments[moment_index];
-    if (moment.moment != level2::Moment::vel || moment.gate_stride <= 0) return sheets;
+    if (moment.moment != level2::Moment::vel || moment.gate_stride <= 0 ||
+        moment.gate_spacing_m <= 0)
+        return sheets;
     const auto counts = [&](std::size_t radial) {
-        const level2::Radial& of = sweep.radials[radial];
-        return moment.gate_counts[radial] > 0 && of.nyquist_mps >= least_nyquist_mps &&
-               of.nyquist_mps <= most_nyquist_mps && std::isfinite(of.azimuth_deg) &&
-               std::isfinite(of.elevation_deg);
+        return moment.gate_counts[radial] > 0 && can_be_unfolded(sweep.radials[radial]);
     };
     for (std::size_t first = 0; first < sweep.radials.size();) {
         std::size_t end = first + 1;

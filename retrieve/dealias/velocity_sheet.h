@@ -7,6 +7,7 @@
 // Threads   Plain data and pure functions.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,19 @@
 #include "stormcellar/level2/volume.h"
 
 namespace stormcellar::retrieve {
+
+// Range of Nyquist velocities. Values outside it are damage, because no radar has them.
+inline constexpr float least_nyquist_mps = 1, most_nyquist_mps = 200;
+
+// Returns true if the Nyquist velocity is within this range, and the angles are finite.
+[[nodiscard]] bool can_be_unfolded(const level2::Radial& radial);
+
+// Returns the difference of two velocities, or 0 if one has no value, so that the caller may
+// compare it (base/floating_point.h).
+[[nodiscard]] inline float turns_apart(float a, float b) {
+    const float apart = std::abs(a - b);
+    return std::isnan(apart) ? 0 : apart;
+}
 
 struct VelocitySheet {
     std::size_t sweep = 0;   // index in the volume
@@ -38,8 +52,7 @@ struct VelocitySheet {
 };
 
 // Returns the sheets of all velocity moments, in the order of the volume. Leaves out sheets without
-// a value, and radials whose Nyquist velocity is not from 1 to 200 m/s or whose angles are not
-// finite.
+// a value, and radials for which can_be_unfolded() is false.
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume);
 // Returns the sheets of one moment of a sweep, for which VelocitySheet::sweep is 0; none if the
 // moment is no velocity.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "base/printable.h"
@@ -63,14 +64,20 @@ std::uint16_t storm_relative_code(const SweepMoment& dealiased, std::uint16_t co
                                                  static_cast<double>(dealiased.offset)));
 }
 
+// Returns the motion's part along a radial, which is the same for all its gates. For damaged
+// angles, returns infinity, which makes the gates ambiguous.
+double along_radial_mps(const level2::Radial& radial, const Motion& storm) {
+    if (!std::isfinite(radial.azimuth_deg) || !std::isfinite(radial.elevation_deg))
+        return std::numeric_limits<double>::infinity();
+    return -storm_relative_mps(0, radial.azimuth_deg, radial.elevation_deg, storm);
+}
+
 SweepMoment storm_relative_moment(const level2::Sweep& sweep, const SweepMoment& dealiased,
                                   const Motion& storm) {
     SweepMoment made = dealiased;
     made.moment = Moment::srv;
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
-        // The motion is the same for all gates of a radial, so compute it once.
-        const double storm_mps = -storm_relative_mps(0, sweep.radials[radial].azimuth_deg,
-                                                     sweep.radials[radial].elevation_deg, storm);
+        const double storm_mps = along_radial_mps(sweep.radials[radial], storm);
         const std::size_t row = radial * static_cast<std::size_t>(dealiased.gate_stride);
         for (std::int32_t gate = 0; gate < dealiased.gate_counts[radial]; ++gate) {
             made.codes16[row + static_cast<std::size_t>(gate)] =

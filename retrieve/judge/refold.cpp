@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/floating_point.h"
+#include "retrieve/dealias/velocity_sheet.h"
+
 namespace stormcellar::retrieve {
 namespace {
 
@@ -12,7 +15,6 @@ using level2::SweepMoment;
 
 // Velocities are stored in steps of 0.01 m/s. Code 32768 is 0 m/s.
 constexpr float steps_per_mps = 100, code_of_zero = 32768;
-constexpr double least_nyquist_mps = 1, most_nyquist_mps = 200;
 
 std::size_t row_of(const SweepMoment& moment, std::size_t radial) {
     return radial * static_cast<std::size_t>(moment.gate_stride);
@@ -53,7 +55,8 @@ SweepMoment refolded(const level2::Sweep& sweep, SweepFolds& folds, double nyqui
     SweepMoment made = with_fine_codes(raw, sweep.radials.size());
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
         const double real_mps = sweep.radials[radial].nyquist_mps;
-        const bool is_lower = real_mps > nyquist_mps, is_same = real_mps == nyquist_mps;
+        const bool is_lower = std::isgreater(real_mps, nyquist_mps);
+        const bool is_same = real_mps == nyquist_mps;
         for (std::int32_t gate = 0; gate < raw.gate_stride; ++gate) {
             const std::size_t at = row_of(raw, radial) + static_cast<std::size_t>(gate);
             if (!is_lower && !is_same) folds.ambiguous[at] = 1;
@@ -96,11 +99,12 @@ std::int64_t jumps_of(const level2::Sweep& sweep, const SweepFolds& folds) {
     std::int64_t jumps = 0;
     for (std::size_t radial = 0; radial < radials; ++radial) {
         const float nyquist_mps = sweep.radials[radial].nyquist_mps;
-        if (!(nyquist_mps > 0)) continue;
+        if (!std::isgreater(nyquist_mps, 0.0F)) continue;
         for (std::int32_t gate = 0; gate < moment.gate_stride; ++gate) {
             const float here = velocity(radial, gate);
-            jumps += std::abs(here - velocity(radial, gate + 1)) > nyquist_mps ? 1 : 0;
-            jumps += std::abs(here - velocity((radial + 1) % radials, gate)) > nyquist_mps ? 1 : 0;
+            for (const float other :
+                 {velocity(radial, gate + 1), velocity((radial + 1) % radials, gate)})
+                jumps += std::isgreater(std::abs(here - other), nyquist_mps) ? 1 : 0;
         }
     }
     return jumps;
@@ -109,7 +113,7 @@ std::int64_t jumps_of(const level2::Sweep& sweep, const SweepFolds& folds) {
 }  // namespace
 
 Result<KnownVolume> refold(const KnownVolume& known, double nyquist_mps) {
-    if (!(nyquist_mps >= least_nyquist_mps && nyquist_mps <= most_nyquist_mps)) {
+    if (!is_within<double>(nyquist_mps, least_nyquist_mps, most_nyquist_mps)) {
         return fail(ErrorCode::bad_argument, "a Nyquist velocity must be from {} to {} m/s",
                     least_nyquist_mps, most_nyquist_mps);
     }
@@ -122,7 +126,7 @@ Result<KnownVolume> refold(const KnownVolume& known, double nyquist_mps) {
     }
     for (level2::Sweep& sweep : made.volume.sweeps) {
         for (level2::Radial& radial : sweep.radials)
-            if (static_cast<double>(radial.nyquist_mps) > nyquist_mps)
+            if (std::isgreater(static_cast<double>(radial.nyquist_mps), nyquist_mps))
                 radial.nyquist_mps = static_cast<float>(nyquist_mps);
     }
     return made;

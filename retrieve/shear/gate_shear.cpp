@@ -51,10 +51,10 @@ void convert(const VelocityRows& rows, const std::vector<PlaneSlope>& slopes, Sh
 
 Result<void> check_shear_options(const ShearOptions& options) {
     for (const double size_m : {options.kernel_azimuth_m, options.kernel_range_m})
-        if (!(size_m > 0 && size_m <= largest_kernel_m))
+        if (!std::isgreater(size_m, 0.0) || size_m > largest_kernel_m)
             return fail(ErrorCode::bad_argument, "a kernel of {} m is not above 0 and up to {} m",
                         size_m, largest_kernel_m);
-    if (!(options.least_share > 0 && options.least_share <= 1))
+    if (!std::isgreater(options.least_share, 0.0) || options.least_share > 1)
         return fail(ErrorCode::bad_argument, "the share of gates {} is not above 0 and up to 1",
                     options.least_share);
     return {};
