@@ -47,10 +47,29 @@ void center_components(SheetState& state) {
     }
 }
 
+// Trusts the main echo of a sheet if it is one node, about which no edge votes. Like a component of
+// several nodes, it has the fold number that center_components() gives it. Smaller echo on its own
+// stays a guess, because it may be folded against the main echo.
+void trust_main_echo(SheetState& state) {
+    std::vector<std::int64_t> gates(at(state.graph.nodes));
+    std::vector<int> nodes(at(state.graph.components));
+    std::int64_t all = 0;
+    for (std::size_t region = 0; region < state.regions.gate_count.size(); ++region) {
+        gates[at(state.graph.node_of_region[region])] += state.regions.gate_count[region];
+        all += state.regions.gate_count[region];
+    }
+    for (const std::int32_t component : state.graph.component)
+        ++nodes[at(component)];
+    for (std::size_t node = 0; node < gates.size(); ++node)
+        if (2 * gates[node] > all && nodes[at(state.graph.component[node])] == 1)
+            state.guessed[node] = 0;
+}
+
 void solve_alone(SheetState& state) {
     minimize_cost(state.graph, {}, state.folds);
     center_components(state);
     state.guessed = guessed_nodes(state.graph, {}, state.folds);
+    trust_main_echo(state);
     state.fill_gate_folds();
     repair_shear(state.sheet, state.gate_folds);
 }

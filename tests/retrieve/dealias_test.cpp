@@ -100,6 +100,29 @@ TEST(Dealias, NothingFoldedStaysAsItIs) {
         const Dealiased found = dealias(folded.volume, rung);
         EXPECT_EQ(score(folded, found).wrong, 0) << static_cast<int>(rung);
         EXPECT_EQ(found.folded_gates, 0);
+        EXPECT_EQ(found.ambiguous_gates, 0) << static_cast<int>(rung);
+    }
+}
+
+// 2026-11-29: `region` marked a sweep of one region, about which no neighbor votes.
+TEST(Dealias, TheMainEchoIsNoGuessButEchoOnItsOwnIs) {
+    const auto main_echo = [](double azimuth, double range, double, double) {
+        const bool is_main = azimuth > 90 && azimuth < 270 && range < 60'000;
+        const bool is_alone = azimuth > 350 && range > 90'000;
+        return is_main ? 5.0 : is_alone ? -5.0 : std::numeric_limits<double>::quiet_NaN();
+    };
+    FoldedSpec spec;
+    spec.nyquist_mps = 40;
+    spec.missing = 0;
+    spec.elevations_deg = {0.5};
+    const FoldedVolume folded = fold(spec, main_echo);
+    const Dealiased found = dealias(folded.volume, Dealiasing::region);
+    EXPECT_EQ(found.folded_gates, 0);
+    ASSERT_GT(found.gates, 40'000);
+    const auto gates = static_cast<std::size_t>(spec.gates);
+    for (std::size_t i = 0; i < found.sweeps[0].folds.size(); ++i) {
+        if (folded.volume.sweeps[0].moments[0].codes8[i] < 2) continue;
+        ASSERT_EQ(found.sweeps[0].ambiguous[i], i / gates > 340 ? 1 : 0) << i;
     }
 }
 

@@ -7,7 +7,9 @@
 // Rungs     The methods, from the simplest on:
 //           profile   takes the fold number that brings a gate nearest to the wind at its height
 //           region    joins gates of similar velocity into regions, and unfolds the regions so that
-//                     neighboring gates agree as well as they can
+//                     neighboring gates agree as well as they can. The main echo of a sweep has a
+//                     mean fold number near 0; echo on its own that nothing joins to it is
+//                     ambiguous.
 //           anchored  unfolds the regions so that they also agree with the wind at their height and
 //                     with the sweeps above and below
 // Units     m/s; fold numbers.
