@@ -79,6 +79,11 @@ Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
         plan.fill.nx = shape->nx;
         plan.fill.ny = shape->ny;
         plan.fill.levels_m = shape->levels_m;
+    } else if (level2::facts_of(call.moment).is_derived) {
+        return fail(ErrorCode::bad_argument,
+                    "{} is made for single stations, not for mosaics; name one station, without "
+                    "--bounds, --center and --projection",
+                    level2::moment_name(call.moment));
     } else {
         auto mosaic = mosaic_of(call, catalog, plan.left_out);
         if (!mosaic) return pass_on(mosaic);

@@ -326,7 +326,7 @@ Result<render::Scene> check(LoopOptions& options) {
     if (auto taken = take_sources(options); !taken) return pass_on(taken);
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
     if (auto fine = check_sweeps(options, *scene); !fine) return pass_on(fine);
-    if (auto fine = render::check_stored_motion(options.scene, scene->product); !fine)
+    if (auto fine = render::check_stored_derivation(options.scene, scene->product); !fine)
         return pass_on(fine);
     return scene;
 }

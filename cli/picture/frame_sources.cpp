@@ -156,7 +156,7 @@ Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
                     "it");
     }
     if (!options.grid.files.empty()) return grid_of_files(options, scene);
-    if (Status fits = check_stored_motion(options.scene, scene.product); !fits)
+    if (Status fits = check_stored_derivation(options.scene, scene.product); !fits)
         return pass_on(fits);
     return is_of_sweep ? stored_sweep(options, scene) : stored_grid(options, scene.moment);
 }
@@ -170,7 +170,7 @@ Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
             return fail(ErrorCode::bad_argument,
                         "panels of sweeps are drawn of a Level II file; name it");
         }
-        const Status fits = check_stored_motion(options.scene, panels.front().scene.product);
+        const Status fits = check_stored_derivation(options.scene, panels.front().scene.product);
         if (!fits) return pass_on(fits);
         const auto store = open_store(options);
         if (!store) return pass_on(store);

@@ -86,9 +86,17 @@ Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOption
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "{}", rung.error().message);
     const bool is_velocity = level2::measured_moment(moment) == level2::Moment::vel;
-    if (*rung == retrieve::Dealiasing::off || (!is_velocity && !options.panels.empty()))
-        return moment;
-    if (is_velocity) return level2::facts_of(moment).is_derived ? moment : level2::Moment::veld;
+    const bool is_derived = level2::facts_of(moment).is_derived;
+    if (*rung == retrieve::Dealiasing::off) {
+        const bool is_given = contains(options.typed, dealias_option()) ||
+                              contains(options.in_file, dealias_option());
+        if (!is_given || !is_derived) return moment;
+        return fail(ErrorCode::bad_argument, "{} off does not go with {} {}, which is dealiased",
+                    spelled(dealias_option(), options), spelled(moment_option(), options),
+                    level2::moment_name(moment));
+    }
+    if (!is_velocity && !options.panels.empty()) return moment;
+    if (is_velocity) return is_derived ? moment : level2::Moment::veld;
     return fail(ErrorCode::bad_argument, "{} is for velocity; the moment is {}",
                 spelled(dealias_option(), options), level2::moment_name(moment));
 }
@@ -156,9 +164,18 @@ Result<Scene> scene_of(const SceneOptions& options) {
     return scene;
 }
 
-Status check_stored_motion(const SceneOptions& options, Product product) {
-    if (options.storm_motion == retrieve::automatic_motion || facts_of(product).is_of_sweep)
-        return {};
+Status check_stored_derivation(const SceneOptions& options, Product product) {
+    if (facts_of(product).is_of_sweep) return {};
+    const auto rung = retrieve::dealiasing_from_name(options.dealias);
+    const bool is_chosen =
+        rung && *rung != retrieve::Dealiasing::off && *rung != retrieve::Dealiasing::automatic;
+    if (is_chosen) {
+        return fail(ErrorCode::bad_argument,
+                    "{} {} is for frames of files and for a ppi; kept grids are dealiased already, "
+                    "and auto draws them",
+                    spelled(dealias_option(), options), options.dealias);
+    }
+    if (options.storm_motion == retrieve::automatic_motion) return {};
     return fail(ErrorCode::bad_argument,
                 "{} is for frames of files and for a ppi; kept grids have the motion of their own "
                 "wind profile",

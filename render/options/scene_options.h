@@ -66,10 +66,10 @@ struct LoopChoices {
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
-// Refuses a storm motion other than `auto` for a picture of kept grids, which have the motion of
-// their own wind profile. A ppi is made from raw files, so it can have any motion. Errors:
-// bad_argument, naming the option.
-[[nodiscard]] Status check_stored_motion(const SceneOptions& options, Product product);
+// Refuses a rung of dealiasing and a storm motion other than `auto` for a picture of kept grids,
+// whose moments are derived already. A ppi is made from raw files, so it can have any of them.
+// Errors: bad_argument, naming the option.
+[[nodiscard]] Status check_stored_derivation(const SceneOptions& options, Product product);
 
 // Returns how the moments of a picture are derived that come from raw files. The options must be
 // those of a valid scene.

@@ -150,6 +150,9 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     const auto unknown = with_range({"--stations", "KBGM,KZZZ"});
     EXPECT_EQ(unknown.status, 3);
     EXPECT_THAT(unknown.err, HasSubstr("the catalog has no volume of KZZZ"));
+    // 2026-11-29: a mosaic of a derived moment left out every volume.
+    EXPECT_THAT(with_range({"--bounds=-77,41,-75,43", "--moment", "VELD"}).err,
+                HasSubstr("VELD is made for single stations, not for mosaics"));
     const auto nobody = with_range({"--bounds=10,41,12,43"});
     EXPECT_EQ(nobody.status, 3);
     EXPECT_THAT(nobody.err, HasSubstr("no station in the catalog reaches these bounds"));

@@ -126,6 +126,11 @@ TEST_F(Ppi, DealiasDrawsOtherVelocitiesInFrameAndLoop) {
     const auto refused = run({"frame", file, "--dealias", "region", "-o", out("no.png")});
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("--dealias is for velocity; the moment is REF"));
+    const auto contrary = run({"frame", file, "--product", "ppi", "--moment", "VELD", "--dealias",
+                               "off", "-o", out("no.png")});
+    EXPECT_EQ(contrary.status, 2);
+    EXPECT_THAT(contrary.err,
+                HasSubstr("--dealias off does not go with --moment VELD, which is dealiased"));
     const auto unknown =
         run({"loop", file, "--moment", "VEL", "--dealias", "strong", "-o", out("no.webp")});
     EXPECT_EQ(unknown.status, 2);

@@ -64,7 +64,7 @@ Result<std::vector<render::PanelScene>> panels_of_frame(const FrameStyle& style,
     if (style.has_panels) return render::panel_scenes(list, style.options, render::scene_of);
     auto scene = render::scene_of(style.options);
     if (!scene) return pass_on(scene);
-    if (Status fits = render::check_stored_motion(style.options, scene->product); !fits)
+    if (Status fits = render::check_stored_derivation(style.options, scene->product); !fits)
         return pass_on(fits);
     const level2::Moment moment = scene->moment;
     return std::vector<render::PanelScene>{{moment, std::move(*scene)}};

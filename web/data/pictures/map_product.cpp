@@ -84,7 +84,7 @@ Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
     if (options.smooth.empty()) options.smooth = "none";
     auto scene = render::scene_of(options);
     if (!scene) return pass_on(scene);
-    if (Status fits = render::check_stored_motion(options, layer.product); !fits)
+    if (Status fits = render::check_stored_derivation(options, layer.product); !fits)
         return pass_on(fits);
     return MapStyle{layer, std::move(*scene), fmt::format("{}\n{}", layer.name(), read->key)};
 }
