@@ -7,9 +7,8 @@
 
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
-#include "cli/shared/input_files.h"
-#include "cli/shared/site_options.h"
 #include "cli/velocity/cyclone_text.h"
+#include "cli/velocity/velocity_input.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -59,20 +58,13 @@ Result<level2::Volume> read_volume(const CycloneCommand& command) {
         return fail(ErrorCode::bad_argument, "{}: holds {} files; name one of them, such as {}",
                     command.file, inputs->files().size(), inputs->files().front().label);
     }
-    auto decoded = inputs->decode(inputs->files().front(), {});
-    if (!decoded) return pass_on(decoded);
-    if (Status applied = apply_site(*site, decoded->volume); !applied) return pass_on(applied);
-    auto volumes = level2::split_volumes(std::move(*decoded));
-    if (volumes.size() != 1) {
+    auto volumes = placed_volumes(*inputs, inputs->files().front(), *site, 1);
+    if (!volumes) return pass_on(volumes);
+    if (volumes->size() != 1) {
         return fail(ErrorCode::unsupported, "{}: holds {} volumes, and a hurricane needs one",
-                    command.file, volumes.size());
+                    command.file, volumes->size());
     }
-    return std::move(volumes.front());
-}
-
-void print_document(const nlohmann::ordered_json& document) {
-    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    fmt::print("{}\n", document.dump(1, ' ', true, replace));
+    return std::move(volumes->front());
 }
 
 int run_cyclone(const CycloneCommand& command) {

@@ -10,6 +10,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/output_file.h"
 #include "cli/velocity/profile_text.h"
+#include "cli/velocity/velocity_input.h"
 #include "render/wind/hodograph.h"
 #include "render/wind/time_height.h"
 #include "stormcellar/render/png_file.h"
@@ -17,6 +18,8 @@
 
 namespace stormcellar::cli {
 namespace {
+
+using retrieve::StationProfile;
 
 constexpr double per_km = 1000;
 
@@ -34,7 +37,9 @@ struct ProfileOptions {
 
 // The options, parsed.
 struct ProfileWish {
-    ProfileRequest request;
+    retrieve::WindProfileOptions wind;
+    SiteRequest site;
+    int threads = 1;
     render::Units units;
     render::Theme theme = render::Theme::dark;
 };
@@ -56,13 +61,31 @@ Result<ProfileWish> parse(const ProfileOptions& options) {
     wish.theme = *theme;
     auto site = parse_site(options.site);
     if (!site) return pass_on(site);
-    wish.request.site = *site;
-    wish.request.wind.layer_m = options.layer_m;
-    wish.request.wind.most_range_m = options.reach_km * per_km;
-    wish.request.threads = options.threads > 0
-                               ? options.threads
-                               : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    wish.site = *site;
+    wish.wind.layer_m = options.layer_m;
+    wish.wind.most_range_m = options.reach_km * per_km;
+    wish.threads = options.threads > 0
+                       ? options.threads
+                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     return wish;
+}
+
+// Returns the profile of each volume of a file. Errors name the file.
+Result<std::vector<StationProfile>> profiles_of(InputFiles& inputs, const InputFile& file,
+                                                const ProfileWish& wish) {
+    const auto volumes = placed_volumes(inputs, file, wish.site, wish.threads);
+    if (!volumes) return pass_on(volumes);
+    std::vector<StationProfile> profiles;
+    for (const level2::Volume& volume : *volumes) {
+        auto profile = retrieve::station_profile(volume, file.file_name(), wish.wind);
+        if (!profile) {
+            const bool lacks_place = profile.error().code == ErrorCode::not_found;
+            return fail(profile.error().code, "{}: {}{}", file.label, profile.error().message,
+                        lacks_place ? how_to_place : "");
+        }
+        profiles.push_back(std::move(*profile));
+    }
+    return profiles;
 }
 
 struct FoundProfiles {
@@ -74,7 +97,7 @@ struct FoundProfiles {
 FoundProfiles find_profiles(InputFiles& inputs, const ProfileWish& wish) {
     FoundProfiles found;
     for (const InputFile& file : inputs.files()) {
-        auto profiles = profiles_of(inputs, file, wish.request);
+        auto profiles = profiles_of(inputs, file, wish);
         if (profiles) {
             std::ranges::move(*profiles, std::back_inserter(found.profiles));
         } else if (file.was_found && is_no_volume(profiles.error())) {
@@ -98,7 +121,7 @@ Result<render::Image> draw(const ProfileOptions& options, const ProfileWish& wis
                           .units = wish.units,
                           .station = profiles.front().station,
                           .antenna_altitude_m = profiles.front().antenna_altitude_m,
-                          .method = method_text(wish.request.wind)};
+                          .method = method_text(wish.wind)};
     std::ranges::stable_sort(profiles, {}, &StationProfile::time);
     std::vector<render::WindColumn> columns;
     for (const StationProfile& profile : profiles)
@@ -131,16 +154,14 @@ void print_profiles(const ProfileOptions& options, const ProfileWish& wish,
     if (options.json) {
         nlohmann::ordered_json document = {{"profiles", nlohmann::ordered_json::array()}};
         for (const StationProfile& profile : profiles)
-            document["profiles"].push_back(profile_json(profile));
+            document["profiles"].push_back(retrieve::profile_json(profile));
         if (is_drawn) document["written"] = options.plot;
-        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-        fmt::print("{}\n", document.dump(1, ' ', true, replace));
+        print_document(document);
         return;
     }
     if (is_stdout(options.plot)) return;
     for (std::size_t i = 0; i < profiles.size(); ++i)
-        fmt::print("{}{}", i > 0 ? "\n" : "",
-                   profile_table(profiles[i], wish.request.wind, wish.units));
+        fmt::print("{}{}", i > 0 ? "\n" : "", profile_table(profiles[i], wish.wind, wish.units));
     if (is_drawn) fmt::print("\n{}: written\n", printable(options.plot));
 }
 

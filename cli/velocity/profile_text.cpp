@@ -6,24 +6,12 @@
 namespace stormcellar::cli {
 namespace {
 
-using nlohmann::ordered_json;
 using retrieve::Birds;
 using retrieve::LayerWind;
 using retrieve::Motion;
 using retrieve::NoWind;
+using retrieve::StationProfile;
 using retrieve::WindLayer;
-
-std::string_view birds_text(Birds birds) {
-    switch (birds) {
-        case Birds::none:
-            return "none";
-        case Birds::possible:
-            return "possible";
-        case Birds::likely:
-            return "likely";
-    }
-    return "unknown";
-}
 
 class ProfileTable {
   public:
@@ -98,33 +86,6 @@ class ProfileTable {
     const render::UnitFacts& speed_;
 };
 
-ordered_json motion_json(const Motion& motion) {
-    return {{"direction_deg", motion.direction_deg()},
-            {"speed_mps", motion.speed_mps()},
-            {"u_mps", motion.u_mps},
-            {"v_mps", motion.v_mps}};
-}
-
-ordered_json layer_json(const WindLayer& layer, double antenna_altitude_m) {
-    ordered_json json = {{"bottom_m", antenna_altitude_m + layer.bottom_m},
-                         {"top_m", antenna_altitude_m + layer.top_m}};
-    if (!layer.wind) {
-        json["reason"] = retrieve::text_of(layer.wind.error());
-        return json;
-    }
-    const LayerWind& wind = *layer.wind;
-    json.update(motion_json(wind.motion));
-    json["w_mps"] = wind.w_mps ? ordered_json(*wind.w_mps) : ordered_json(nullptr);
-    json["u_error_mps"] = wind.u_error_mps;
-    json["v_error_mps"] = wind.v_error_mps;
-    json["rms_mps"] = wind.rms_mps;
-    json["gates"] = wind.gates;
-    json["rejected_gates"] = wind.rejected_gates;
-    json["gap_deg"] = wind.gap_deg;
-    json["birds"] = birds_text(wind.birds);
-    return json;
-}
-
 }  // namespace
 
 std::string method_text(const retrieve::WindProfileOptions& options) {
@@ -148,25 +109,6 @@ std::string profile_table(const StationProfile& profile,
     text += table.motion("right mover", profile.motions->right);
     text += table.motion("left mover", profile.motions->left);
     return text + table.motion("mean wind", profile.motions->mean);
-}
-
-ordered_json profile_json(const StationProfile& profile) {
-    ordered_json json = {{"file", profile.file},
-                         {"station", profile.station},
-                         {"time", json_time(profile.time)},
-                         {"antenna_altitude_m", profile.antenna_altitude_m},
-                         {"layers", ordered_json::array()}};
-    for (const WindLayer& layer : profile.layers)
-        json["layers"].push_back(layer_json(layer, profile.antenna_altitude_m));
-    if (profile.motions) {
-        json["storm_motion"] = {{"right", motion_json(profile.motions->right)},
-                                {"left", motion_json(profile.motions->left)},
-                                {"mean", motion_json(profile.motions->mean)}};
-    } else {
-        json["storm_motion"] = nullptr;
-        json["storm_motion_reason"] = profile.motions.error().message;
-    }
-    return json;
 }
 
 }  // namespace stormcellar::cli
