@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "grid/place/source_volume.h"
+#include "retrieve/wind/station_profile.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/retrieve/derived_moments.h"
 #include "tests/web/served_volumes.h"
@@ -35,6 +36,10 @@ class OpenDoors {
         doors_ = doors_to(open_sources(setup).value(), measures_);
     }
     Answer get(const std::string& path) { return asked(*doors_->find(path), path); }
+    // Returns none if the answer takes long.
+    std::optional<Answer> get_soon(const std::string& path) {
+        return doors_->find(path)->answer_soon(request_for(path));
+    }
 
   private:
     testing::TemporaryDirectory cache_;
@@ -90,6 +95,47 @@ TEST(ApiSweeps, GatesOfADerivedMomentComeOrAReasonDoes) {
     const Answer relative = doors.get(sweep + "SRV");
     EXPECT_EQ(relative.status, 404U);
     EXPECT_THAT(body_of(relative), ::testing::HasSubstr("gives no storm motion: the highest wind"));
+}
+
+// The server gives the profile that the library measures, and computes it once, in a worker.
+TEST(ApiWind, IsTheProfileOfTheVolumeOrAReason) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    OpenDoors doors(volumes);
+    const std::string stations = "/api/v1/stations/";
+    const std::string path = stations + "KTLX/volumes/2017-01-01T03:00:27Z/wind";
+    EXPECT_FALSE(doors.get_soon(path)) << "computing takes long";
+    const Answer answer = doors.get(path);
+    ASSERT_EQ(answer.status, 200U) << body_of(answer);
+    const char* const name = "KTLX20170101_030027_V06";
+    const auto volume =
+        level2::decode_file(testing::real_file(std::string("volumes/") + name))->volume;
+    const auto profile = retrieve::station_profile(volume, name);
+    ASSERT_TRUE(profile) << profile.error().message;
+    ASSERT_TRUE(profile->has_wind());
+    EXPECT_EQ(nlohmann::ordered_json::parse(body_of(answer)), retrieve::profile_json(*profile));
+    EXPECT_EQ(header_of(answer, "Cache-Control"), "max-age=300");
+    const auto again = doors.get_soon(path);
+    ASSERT_TRUE(again) << "kept";
+    EXPECT_EQ(header_of(*again, "ETag"), header_of(answer, "ETag"));
+
+    const Answer latest = doors.get(stations + "KTLX/volumes/latest/wind");
+    EXPECT_EQ(body_of(latest), body_of(answer));
+    EXPECT_EQ(header_of(latest, "Cache-Control"), "no-cache");
+    EXPECT_EQ(doors.get(stations + "KTLX/volumes/2017-01-02T00:00:00Z/wind").status, 404U);
+    EXPECT_EQ(doors.get(stations + "KTLX/volumes/yesterday/wind").status, 400U);
+    EXPECT_EQ(doors.get(path + "?layer=200").status, 400U);
+}
+
+// The first chunks hold the surveillance cut alone.
+TEST(ApiWind, OfAVolumeWithoutVelocitiesIsNotFound) {
+    STORMCELLAR_NEED_DATA();
+    ServedVolumes volumes(false);
+    (void)volumes.take_chunks(4);
+    OpenDoors doors(volumes);
+    const Answer answer = doors.get("/api/v1/stations/KLOT/volumes/latest/wind");
+    EXPECT_EQ(answer.status, 404U);
+    EXPECT_THAT(body_of(answer), ::testing::HasSubstr("the volume has no velocities"));
 }
 
 // VELD is listed beside VEL and chosen with it. Its gates are those that the library derives.

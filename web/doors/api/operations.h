@@ -48,6 +48,7 @@ Answer api_stations(const ApiCall& call);
 Answer api_volumes(const ApiCall& call);
 Answer api_sweeps(const ApiCall& call);
 Answer api_gates(const ApiCall& call);
+Answer api_wind(const ApiCall& call);
 Answer api_domains(const ApiCall& call);
 Answer api_grids(const ApiCall& call);
 Answer api_grid(const ApiCall& call);

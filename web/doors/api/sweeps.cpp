@@ -1,4 +1,4 @@
-// Operations on the sweeps of a raw volume and their gates.
+// Operations on the sweeps of a raw volume, their gates and the wind that they show.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/checksum.h"
+#include "level2/decode/volume_checks.h"
 #include "pipeline/drop/cataloged_volume.h"
+#include "retrieve/wind/station_profile.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/sweep_choice.h"
@@ -15,6 +17,7 @@
 #include "web/data/grids/compressed.h"
 #include "web/data/grids/packed_sweep.h"
 #include "web/doors/api/operations.h"
+#include "web/doors/pictures/picture_answers.h"
 
 namespace stormcellar::web {
 namespace {
@@ -160,6 +163,17 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
     return json;
 }
 
+Result<Kept> wind_of(const level2::Volume& volume, const FoundVolume& found, Coding coding) {
+    if (!level2::holds(volume, level2::Moment::vel))
+        return fail(ErrorCode::not_found, "the volume has no velocities");
+    const auto profile = retrieve::station_profile(volume, found.entry.path.filename().string());
+    if (!profile) return pass_on(profile);
+    // Names of files may hold any bytes.
+    const auto replace = ApiJson::error_handler_t::replace;
+    return kept_compressed(retrieve::profile_json(*profile).dump(-1, ' ', false, replace) + "\n",
+                           coding);
+}
+
 }  // namespace
 
 Answer api_sweeps(const ApiCall& call) {
@@ -208,6 +222,27 @@ Answer api_gates(const ApiCall& call) {
         kept = std::move(*made);
     }
     return answer_with(call.request, entity_of(*kept, "application/octet-stream"));
+}
+
+Answer api_wind(const ApiCall& call) {
+    const auto found = find_cataloged(call);
+    if (!found) return found.error();
+    const Coding coding = coding_for(call.request);
+    const std::string key = fmt::format("wind/{}/{}", found->key, coding_name(coding));
+    KeptAnswers& answers = *call.state.sources().kept;
+    auto kept = answers.find(key);
+    if (!kept) {
+        if (call.must_be_quick) return takes_long();
+        const auto volume = volume_of(call, *found);
+        if (!volume) return volume.error();
+        auto made = answers.find_or_make(key, [&] { return wind_of(**volume, *found, coding); });
+        if (!made) return json_error(made.error());
+        kept = std::move(*made);
+    }
+    Entity entity = entity_of(*kept, "application/json");
+    const bool is_settled = found->entry.state == catalog::FileState::complete;
+    if (is_settled && call.path_value("time") != "latest") entity.max_age = answer_holds_for;
+    return answer_with(call.request, std::move(entity));
 }
 
 }  // namespace stormcellar::web
