@@ -11,6 +11,7 @@
 #include "level2/decode/volume_checks.h"
 #include "pipeline/keep/geometry_cache.h"
 #include "pipeline/plan/mosaic_of_volumes.h"
+#include "retrieve/plan/dealiasing_plan.h"
 #include "stormcellar/grid/gridder.h"
 
 namespace stormcellar::cli {
@@ -37,6 +38,7 @@ grid::GridderOptions gridder_options(const GridRequest& request, const MomentReq
 struct FileScene {
     const SourceVolume& source;
     grid::GridSpec spec;
+    const std::optional<accuracy::Plan>& dealiasing;  // none: not planned
     pipeline::GeometryCache geometries{most_geometries};
 };
 
@@ -64,6 +66,27 @@ Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, cons
     return MadeGrid{std::move(*grid), {}};
 }
 
+// Returns what a plan of dealiasing leaves of the budget for the grid.
+std::optional<accuracy::Budget> budget_beside(const accuracy::Plan& dealiasing,
+                                              std::optional<accuracy::Budget> budget) {
+    if (!budget) return budget;
+    if (budget->value) *budget->value -= dealiasing.left_off.value;
+    if (budget->time_s) *budget->time_s -= dealiasing.cost_s;
+    return budget;
+}
+
+// Joins the plan of dealiasing, which comes first, and the plan of the grid.
+accuracy::Plan join_plans(const accuracy::Plan& dealiasing, accuracy::Plan plan) {
+    plan.budget = dealiasing.budget;
+    plan.description = dealiasing.description + ", " + plan.description;
+    plan.left_off += dealiasing.left_off;
+    plan.cost_s += dealiasing.cost_s;
+    if (plan.measured && plan.measured->value) *plan.measured->value += dealiasing.left_off.value;
+    plan.decisions.insert(plan.decisions.begin(), dealiasing.decisions.begin(),
+                          dealiasing.decisions.end());
+    return plan;
+}
+
 Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, const MomentRequest& of,
                               GridTimings& timings) {
     Stopwatch watch;
@@ -72,11 +95,15 @@ Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, cons
         source.volume, source.site, scene.spec,
         {of.moment, 0, of.effects.profile, request.threads, request.frame_time});
     if (!measured) return pass_on(measured);
-    auto planned = grid::plan_grid(*measured, of.effects.chain, of.effects.budget);
+    const bool is_dealiased = scene.dealiasing && level2::facts_of(of.moment).is_derived;
+    const auto budget =
+        is_dealiased ? budget_beside(*scene.dealiasing, of.effects.budget) : of.effects.budget;
+    auto planned = grid::plan_grid(*measured, of.effects.chain, budget);
     timings.plan_s += watch.lap_s();
     if (!planned) return pass_on(planned);
     MadeGrid made;
-    made.plan = std::move(planned->plan);
+    made.plan = is_dealiased ? join_plans(*scene.dealiasing, std::move(planned->plan))
+                             : std::move(planned->plan);
     if (!made.plan->meets_budget) return made;
     const auto geometry = measured->geometry(planned->choice.frame);
     timings.geometry_s += watch.lap_s();
@@ -99,18 +126,38 @@ bool is_gridded(const GridRequest& request, level2::Moment moment,
     return !request.any_moment || std::ranges::any_of(volumes, has);
 }
 
+// Returns the request such that it plans the dealiasing if a derived moment is planned.
+GridRequest planning_dealiasing(GridRequest request, const std::vector<MomentRequest>& moments,
+                                std::optional<accuracy::Plan>& plan) {
+    const auto planned = std::ranges::find_if(moments, [](const MomentRequest& of) {
+        return level2::facts_of(of.moment).is_derived && of.effects.needs_plan();
+    });
+    if (planned == moments.end()) return request;
+    request.plan_dealiasing = [&plan, asked = request.derived.dealiasing,
+                               budget = planned->effects.budget](
+                                  const level2::Volume& volume) -> Result<retrieve::Dealiasing> {
+        auto made = retrieve::plan_dealiasing(volume, asked, budget);
+        if (!made) return pass_on(made);
+        plan = std::move(made->plan);
+        return made->rung;
+    };
+    return request;
+}
+
 // Returns a grid of each requested moment. Stops after the first grid that does not meet its
 // budget.
 Result<std::vector<MadeGrid>> grid_file(const std::string& path, const GridRequest& request,
                                         const std::vector<MomentRequest>& moments,
                                         GridTimings& timings, std::vector<SourceVolume>* kept) {
-    auto source = load_volume(path, request);
+    std::optional<accuracy::Plan> dealiasing;
+    auto source = load_volume(path, planning_dealiasing(request, moments, dealiasing));
     if (!source) return pass_on(source);
+    if (dealiasing && !dealiasing->meets_budget) return std::vector{MadeGrid{{}, dealiasing}};
     timings.read_s = source->read_s;
     timings.decode_s = source->decode_s;
     const auto spec = spec_about(request, source->site.latitude_deg, source->site.longitude_deg);
     if (!spec) return pass_on(spec);
-    FileScene scene{*source, *spec};
+    FileScene scene{*source, *spec, dealiasing};
     std::vector<MadeGrid> all;
     for (const MomentRequest& of : moments) {
         if (!is_gridded(request, of.moment, {&source->volume})) continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,6 +70,8 @@ struct GridRequest {
     std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
                                                // of moments
     retrieve::DerivedOptions derived;          // for moments that are derived
+    // Plans the rung of dealiasing for a volume; null: as in `derived`.
+    std::function<Result<retrieve::Dealiasing>(const level2::Volume&)> plan_dealiasing;
     bool any_moment = false;                   // --moment all: leave out moments that no volume has
     std::optional<UtcTime> frame_time;         // selects the sweeps nearest to this time
     grid::DetailSet details;                   // with one file: the details to keep for each cell

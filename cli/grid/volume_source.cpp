@@ -16,7 +16,13 @@ namespace {
 // error.
 Result<std::vector<std::string>> add_derived(const GridRequest& request, level2::Volume& volume) {
     const auto moments = request.moments();
-    auto derived = retrieve::add_derived_moments(volume, moments, request.derived);
+    retrieve::DerivedOptions options = request.derived;
+    if (request.plan_dealiasing) {
+        const auto rung = request.plan_dealiasing(volume);
+        if (!rung) return pass_on(rung);
+        options.dealiasing = *rung;
+    }
+    auto derived = retrieve::add_derived_moments(volume, moments, options);
     if (derived) return std::move(derived->notes);
     if (request.any_moment) return std::vector<std::string>{};
     const bool lacks_motion = std::ranges::find(moments, level2::Moment::srv) != moments.end() &&

@@ -31,7 +31,7 @@ const std::map<std::string, Rooms> allowed = {
     {"level2", {"base", "bunzip"}},
     {"catalog", {"archive", "base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
-    {"retrieve", {"base", "grid", "level2"}},
+    {"retrieve", {"base", "accuracy", "grid", "level2"}},
     {"cache", {"base", "grid", "level2"}},
     {"render", {"base", "accuracy", "grid", "cache", "level2", "retrieve"}},
     {"synth", {"accuracy", "archive", "base", "level2", "grid"}},
