@@ -9,6 +9,7 @@
 #include "base/degree.h"
 #include "retrieve/dealias/ambiguity.h"
 #include "retrieve/dealias/anchors.h"
+#include "retrieve/dealias/linked_regions.h"
 #include "retrieve/dealias/roughness.h"
 #include "retrieve/dealias/shear_repair.h"
 
@@ -19,8 +20,7 @@ std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
 }
 
-void find_graph(SheetState& state, float anchor_weight) {
-    state.regions = find_regions(state.sheet);
+void make_graph(SheetState& state, float anchor_weight) {
     std::vector<float> bound;
     bound.reserve(state.regions.gate_count.size());
     for (const std::int32_t gates : state.regions.gate_count)
@@ -28,6 +28,23 @@ void find_graph(SheetState& state, float anchor_weight) {
     const auto regions = static_cast<std::int32_t>(state.regions.gate_count.size());
     state.graph = fold_graph(std::exchange(state.regions.edges, {}), regions, bound);
     state.folds = likely_folds(state.graph);
+}
+
+void find_graph(SheetState& state, float anchor_weight) {
+    state.regions = find_regions(state.sheet);
+    make_graph(state, anchor_weight);
+}
+
+// Splits the regions that may hold gates of two fold numbers, and makes a graph of the pieces.
+// Returns false if there is no such region.
+bool split_linked_regions(SheetState& state, float anchor_weight) {
+    state.fill_gate_folds();
+    const std::vector<std::uint8_t> is_split =
+        linked_regions(state.sheet, state.regions, state.gate_folds);
+    if (std::ranges::find(is_split, 1) == is_split.end()) return false;
+    state.regions = split_regions(state.sheet, state.regions, is_split);
+    make_graph(state, anchor_weight);
+    return true;
 }
 
 // Shifts each component so that its mean fold number is nearest to 0. Without anchors, nothing else
@@ -67,6 +84,7 @@ void trust_main_echo(SheetState& state) {
 
 void solve_alone(SheetState& state) {
     minimize_cost(state.graph, {}, state.folds);
+    if (split_linked_regions(state, 0)) minimize_cost(state.graph, {}, state.folds);
     center_components(state);
     state.guessed = guessed_nodes(state.graph, {}, state.folds);
     trust_main_echo(state);
@@ -86,9 +104,12 @@ std::vector<std::size_t> by_elevation(const std::vector<SheetState>& states) {
 
 void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
     for (SheetState& state : states) {
-        state.wind_anchors.resize(at(state.graph.nodes));
-        anchor_to_wind(wind, state, state.wind_anchors);
-        minimize_cost(state.graph, state.wind_anchors, state.folds);
+        for (int i = 0; i < 2; ++i) {
+            if (i > 0 && !split_linked_regions(state, most_anchor_weight)) break;
+            state.wind_anchors.assign(at(state.graph.nodes), {});
+            anchor_to_wind(wind, state, state.wind_anchors);
+            minimize_cost(state.graph, state.wind_anchors, state.folds);
+        }
         state.fill_gate_folds();
     }
     // Go downward first, because the sweeps above have fewer folds, and then upward.

@@ -14,6 +14,9 @@ namespace {
 // Gates farther apart than this say nothing about each other.
 constexpr std::int32_t widest_gap = 100;
 
+// Size of the tiles into which regions are split.
+constexpr std::int32_t tile_radials = 8, tile_gates = 16;
+
 std::int8_t third_of(float turns) {
     return turns < -1.0F / 6 ? -1 : turns < 1.0F / 6 ? 0 : 1;
 }
@@ -25,6 +28,29 @@ class RegionFinder {
 
     SheetRegions find() {
         cut_runs();
+        return find_between_runs();
+    }
+
+    SheetRegions split(const SheetRegions& regions, const std::vector<std::uint8_t>& is_split) {
+        cut_runs(regions, is_split);
+        SheetRegions found = find_between_runs();
+        found.pairs = regions.pairs;
+        found.jumps = regions.jumps;
+        return found;
+    }
+
+  private:
+    struct Kind {
+        std::int8_t third;
+        bool begins_tile;  // is cut from the radial before
+    };
+    struct Last {
+        std::int32_t run = -1;
+        std::int32_t turn = 0;  // radial number, which keeps rising on the second way round
+        float value = 0;
+    };
+
+    SheetRegions find_between_runs() {
         sets_.emplace(static_cast<std::int32_t>(found_.runs.size()));
         for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
             meet_along(radial);
@@ -38,13 +64,6 @@ class RegionFinder {
         name_regions();
         return std::move(found_);
     }
-
-  private:
-    struct Last {
-        std::int32_t run = -1;
-        std::int32_t turn = 0;  // radial number, which keeps rising on the second way round
-        float value = 0;
-    };
 
     void cut_runs() {
         for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
@@ -63,8 +82,28 @@ class RegionFinder {
                        third_of(row[static_cast<std::size_t>(end)]) == third)
                     ++end;
                 found_.runs.push_back({radial, gate, end, 0});
-                thirds_.push_back(third);
+                kinds_.push_back({third, false});
                 gate = end;
+            }
+        }
+        found_.first_run.push_back(found_.runs.size());
+    }
+
+    void cut_runs(const SheetRegions& regions, const std::vector<std::uint8_t>& is_split) {
+        for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
+            const auto r = static_cast<std::size_t>(radial);
+            found_.first_run.push_back(found_.runs.size());
+            for (std::size_t q = regions.first_run[r]; q < regions.first_run[r + 1]; ++q) {
+                const Run& run = regions.runs[q];
+                const bool is_cut = is_split[static_cast<std::size_t>(run.region)] != 0;
+                const std::int8_t third = third_of(sheet_.row(radial)[run.begin]);
+                for (std::int32_t begin = run.begin; begin < run.end;) {
+                    const std::int32_t end =
+                        is_cut ? std::min(run.end, (begin / tile_gates + 1) * tile_gates) : run.end;
+                    found_.runs.push_back({radial, begin, end, 0});
+                    kinds_.push_back({third, is_cut && radial % tile_radials == 0});
+                    begin = end;
+                }
             }
         }
         found_.first_run.push_back(found_.runs.size());
@@ -104,7 +143,7 @@ class RegionFinder {
 
     void meet_before(std::int32_t q, std::int32_t turn, const float* row) {
         const Run& run = found_.runs[static_cast<std::size_t>(q)];
-        const std::int8_t third = thirds_[static_cast<std::size_t>(q)];
+        const Kind kind = kinds_[static_cast<std::size_t>(q)];
         FoldEdge edge{-1, q, {}};
         std::int32_t joined = -1;
         for (std::int32_t gate = run.begin; gate < run.end; ++gate) {
@@ -118,7 +157,8 @@ class RegionFinder {
             if (steps == 1) {
                 ++found_.pairs;
                 if (std::abs(before.value - row[gate]) > 0.5F) ++found_.jumps;
-                if (thirds_[static_cast<std::size_t>(before.run)] == third) {
+                if (!kind.begins_tile &&
+                    kinds_[static_cast<std::size_t>(before.run)].third == kind.third) {
                     if (joined != before.run) sets_->join(before.run, q, 0);
                     joined = before.run;
                     continue;
@@ -159,15 +199,20 @@ class RegionFinder {
 
     const VelocitySheet& sheet_;
     SheetRegions found_;
-    std::vector<std::int8_t> thirds_;  // of each run
-    std::vector<Last> last_;           // of each gate number
-    std::optional<OffsetSets> sets_;   // of runs
+    std::vector<Kind> kinds_;         // of each run
+    std::vector<Last> last_;          // of each gate number
+    std::optional<OffsetSets> sets_;  // of runs
 };
 
 }  // namespace
 
 SheetRegions find_regions(const VelocitySheet& sheet) {
     return RegionFinder(sheet).find();
+}
+
+SheetRegions split_regions(const VelocitySheet& sheet, const SheetRegions& regions,
+                           const std::vector<std::uint8_t>& is_split) {
+    return RegionFinder(sheet).split(regions, is_split);
 }
 
 }  // namespace stormcellar::retrieve

@@ -39,4 +39,10 @@ struct SheetRegions {
 
 [[nodiscard]] SheetRegions find_regions(const VelocitySheet& sheet);
 
+// Cuts each region with a 1 in `is_split` along a grid of tiles, and returns all regions with the
+// votes between them. Gates of two pieces of one region vote, too, so that a piece can have
+// another fold number than the rest.
+[[nodiscard]] SheetRegions split_regions(const VelocitySheet& sheet, const SheetRegions& regions,
+                                         const std::vector<std::uint8_t>& is_split);
+
 }  // namespace stormcellar::retrieve
