@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+
 #include <numeric>
 
 #include "retrieve/dealias/minimum_cut.h"
@@ -33,6 +34,14 @@ float Votes::cost(int number) const {
     return sum;
 }
 
+float Votes::rise(int number) const {
+    float below = 0;
+    const int last = std::clamp(number, -most - 1, most);
+    for (int voted = -most; voted <= last; ++voted)
+        below += weights_[index(voted)];
+    return 2 * below - total();
+}
+
 int Votes::winner() const {
     return static_cast<int>(std::ranges::max_element(weights_) - weights_.begin()) - most;
 }
@@ -42,6 +51,8 @@ namespace {
 // Limits the looks at arcs, because noise can have so many nearly equal solutions that finding the
 // best takes minutes. Sweeps of real weather take up to 4 million looks.
 constexpr std::int64_t most_looks = 8'000'000;
+// A move that lowers the cost by a smaller share is the last in its direction.
+constexpr double least_gain = 3e-3;
 
 std::size_t at(std::int32_t index) {
     return static_cast<std::size_t>(index);
@@ -104,41 +115,107 @@ void find_components(FoldGraph& graph) {
     }
 }
 
-// Adds `step` to the folds of the set of nodes for which this lowers the cost most. Returns false
-// if it lowers the cost for no set. The change of the cost is a sum over the nodes of the set, and
-// over the edges from the set to other nodes, so a minimum cut finds the set.
-bool move(const FoldGraph& graph, const std::vector<Votes>& anchors, std::int32_t step,
-          std::int64_t& looks, std::vector<std::int32_t>& folds) {
-    std::vector<float> cost_of_staying(at(graph.nodes), 0);
-    MinimumCut cut(graph.nodes);
-    for (const FoldEdge& edge : graph.edges) {
-        const int number = folds[at(edge.b)] - folds[at(edge.a)];
-        const float lowered =
-            edge.votes.cost(number - step) - edge.votes.cost(number);  // if a alone moves
-        cost_of_staying[at(edge.a)] -= lowered;
-        cost_of_staying[at(edge.b)] += lowered;
-        // If b alone moves, the cost changes by -lowered plus this capacity.
-        cut.connect(edge.b, edge.a, 2 * edge.votes.at(number));
-    }
-    for (std::int32_t node = 0; node < graph.nodes; ++node) {
-        if (!anchors.empty()) {
-            const Votes& votes = anchors[at(node)];
-            cost_of_staying[at(node)] -=
-                votes.cost(folds[at(node)] + step) - votes.cost(folds[at(node)]);
+// Lowers the cost of a solution.
+class CostDescent {
+  public:
+    CostDescent(const FoldGraph& graph, const std::vector<Votes>& anchors,
+                std::vector<std::int32_t>& folds)
+        : graph_(graph),
+          anchors_(anchors),
+          folds_(folds),
+          of_edge_(graph.edges.size()),
+          of_anchor_(anchors.size()) {
+        for (std::size_t i = 0; i < of_edge_.size(); ++i) {
+            look_at_edge(i);
+            const FoldEdge& edge = graph.edges[i];
+            cost_ += static_cast<double>(edge.votes.cost(folds_[at(edge.b)] - folds_[at(edge.a)]));
         }
-        cut.prefer_source(node, cost_of_staying[at(node)]);
+        for (std::size_t node = 0; node < of_anchor_.size(); ++node)
+            look_at_anchor(node);
     }
-    looks -= cut.run(looks);
-    std::vector<std::int32_t> moved = folds;
-    for (std::int32_t node = 0; node < graph.nodes; ++node)
-        if (cut.on_source_side(node)) moved[at(node)] += step;
-    // Require a clear gain, so that rounding does not make two solutions of equal cost alternate
-    // forever.
-    if (cost_of(graph, anchors, moved) >= cost_of(graph, anchors, folds) * (1 - 1e-7) - 1e-4)
-        return false;
-    folds = std::move(moved);
-    return true;
-}
+
+    // Adds `step` to the folds of the set of nodes for which this lowers the cost most. Returns
+    // false if it lowers the cost for no set. The change of the cost is a sum over the nodes of the
+    // set, and over the edges from the set to other nodes, so a minimum cut finds the set. The set
+    // is on the source's side.
+    bool move(std::int32_t step, std::int64_t& looks) {
+        MinimumCut cut(graph_.nodes, of_edge_.size());
+        for (std::size_t i = 0; i < of_edge_.size(); ++i) {
+            const FoldEdge& edge = graph_.edges[i];
+            const auto [a_alone, b_alone] = costs_alone(i, step);
+            // If both move, the cost stays. A node that gains by moving alone prefers to move, and
+            // takes its gain back from a neighbor that moves with it.
+            const float gain = std::max(-a_alone, 0.0F) - std::max(-b_alone, 0.0F);
+            cut.prefer_source(edge.a, gain);
+            cut.prefer_source(edge.b, -gain);
+            cut.connect(edge.a, edge.b, a_alone + gain, b_alone - gain);
+        }
+        for (std::size_t node = 0; node < of_anchor_.size(); ++node)
+            cut.prefer_source(static_cast<std::int32_t>(node), -of_anchor_[node].by(step));
+        looks -= cut.run(looks);
+        const double change = change_of(cut, step);
+        // Require a clear gain, so that rounding does not make two solutions of equal cost
+        // alternate forever.
+        if (change > -1e-4) return false;
+        apply(cut, step);
+        cost_ += change;
+        return -change > least_gain * cost_;
+    }
+
+  private:
+    // By how much the cost rises if a fold number, or a difference of two, changes by one.
+    struct Rise {
+        float up = 0, down = 0;
+        [[nodiscard]] float by(std::int32_t step) const { return step > 0 ? up : down; }
+    };
+    struct Alone {
+        float a, b;
+    };
+
+    void look_at_edge(std::size_t i) {
+        const FoldEdge& edge = graph_.edges[i];
+        const int number = folds_[at(edge.b)] - folds_[at(edge.a)];
+        of_edge_[i] = {edge.votes.rise(number), -edge.votes.rise(number - 1)};
+    }
+    void look_at_anchor(std::size_t node) {
+        const int number = folds_[node];
+        of_anchor_[node] = {anchors_[node].rise(number), -anchors_[node].rise(number - 1)};
+    }
+    // Returns the changes of the cost if only one node of an edge moves.
+    [[nodiscard]] Alone costs_alone(std::size_t i, std::int32_t step) const {
+        return {of_edge_[i].by(-step), of_edge_[i].by(step)};
+    }
+    [[nodiscard]] double change_of(const MinimumCut& cut, std::int32_t step) const {
+        double change = 0;
+        for (std::size_t i = 0; i < of_edge_.size(); ++i) {
+            const bool a_moves = cut.on_source_side(graph_.edges[i].a);
+            if (a_moves == cut.on_source_side(graph_.edges[i].b)) continue;
+            const auto [a_alone, b_alone] = costs_alone(i, step);
+            change += static_cast<double>(a_moves ? a_alone : b_alone);
+        }
+        for (std::size_t node = 0; node < of_anchor_.size(); ++node)
+            if (cut.on_source_side(static_cast<std::int32_t>(node)))
+                change += static_cast<double>(of_anchor_[node].by(step));
+        return change;
+    }
+    void apply(const MinimumCut& cut, std::int32_t step) {
+        for (std::int32_t node = 0; node < graph_.nodes; ++node) {
+            if (!cut.on_source_side(node)) continue;
+            folds_[at(node)] += step;
+            if (!of_anchor_.empty()) look_at_anchor(at(node));
+        }
+        for (std::size_t i = 0; i < of_edge_.size(); ++i) {
+            const FoldEdge& edge = graph_.edges[i];
+            if (cut.on_source_side(edge.a) != cut.on_source_side(edge.b)) look_at_edge(i);
+        }
+    }
+
+    const FoldGraph& graph_;
+    const std::vector<Votes>& anchors_;
+    std::vector<std::int32_t>& folds_;
+    std::vector<Rise> of_edge_, of_anchor_;
+    double cost_ = 0;  // of the edges, and the changes by the moves
+};
 
 }  // namespace
 
@@ -240,16 +317,6 @@ std::vector<std::int32_t> likely_folds(const FoldGraph& graph) {
     return folds;
 }
 
-double cost_of(const FoldGraph& graph, const std::vector<Votes>& anchors,
-               const std::vector<std::int32_t>& folds) {
-    double sum = 0;
-    for (const FoldEdge& edge : graph.edges)
-        sum += static_cast<double>(edge.votes.cost(folds[at(edge.b)] - folds[at(edge.a)]));
-    for (std::size_t node = 0; node < anchors.size(); ++node)
-        sum += static_cast<double>(anchors[node].cost(folds[node]));
-    return sum;
-}
-
 void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                    std::vector<std::int32_t>& folds) {
     // Move whole components first, which saves many cuts.
@@ -269,8 +336,9 @@ void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
     }
     std::int64_t looks = most_looks;
     int idle = 0;
+    CostDescent descent(graph, anchors, folds);
     for (int i = 0; looks > 0 && idle < 2; ++i)
-        idle = move(graph, anchors, i % 2 == 0 ? 1 : -1, looks, folds) ? 0 : idle + 1;
+        idle = descent.move(i % 2 == 0 ? 1 : -1, looks) ? 0 : idle + 1;
 }
 
 }  // namespace stormcellar::retrieve

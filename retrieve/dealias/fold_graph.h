@@ -36,6 +36,8 @@ class Votes {
     }
     [[nodiscard]] float total() const;
     [[nodiscard]] float cost(int number) const;
+    // Returns cost(number + 1) - cost(number).
+    [[nodiscard]] float rise(int number) const;
     // Returns the number with the largest weight.
     [[nodiscard]] int winner() const;
 
@@ -88,8 +90,5 @@ struct FoldGraph {
 // is reached. Without anchors, a whole component can move at no cost.
 void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
                    std::vector<std::int32_t>& folds);
-
-[[nodiscard]] double cost_of(const FoldGraph& graph, const std::vector<Votes>& anchors,
-                             const std::vector<std::int32_t>& folds);
 
 }  // namespace stormcellar::retrieve

@@ -15,12 +15,12 @@ void MinimumCut::prefer_source(std::int32_t node, float cost) {
     at(node).rest += cost;
 }
 
-void MinimumCut::connect(std::int32_t from, std::int32_t to, float cost) {
-    if (!(cost > 0) || from == to) return;
+void MinimumCut::connect(std::int32_t from, std::int32_t to, float cost, float reverse_cost) {
+    if (!(cost > 0 || reverse_cost > 0) || from == to) return;
     const auto next = static_cast<std::int32_t>(arcs_.size());
     arcs_.push_back({to, at(from).first, cost});
     at(from).first = next;
-    arcs_.push_back({from, at(to).first, 0});
+    arcs_.push_back({from, at(to).first, reverse_cost});
     at(to).first = next + 1;
 }
 

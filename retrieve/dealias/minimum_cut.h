@@ -18,12 +18,16 @@ namespace stormcellar::retrieve {
 
 class MinimumCut {
   public:
-    explicit MinimumCut(std::int32_t nodes) : nodes_(static_cast<std::size_t>(nodes)) {}
+    MinimumCut(std::int32_t nodes, std::size_t most_connections)
+        : nodes_(static_cast<std::size_t>(nodes)) {
+        arcs_.reserve(2 * most_connections);
+    }
     // Adds what it costs if the node is on the sink's side; a negative cost is that of the source's
     // side.
     void prefer_source(std::int32_t node, float cost);
-    // Adds what it costs if `from` is on the source's side and `to` on the sink's.
-    void connect(std::int32_t from, std::int32_t to, float cost);
+    // Adds what it costs if `from` is on the source's side and `to` on the sink's, and what the
+    // reverse costs.
+    void connect(std::int32_t from, std::int32_t to, float cost, float reverse_cost);
     // Computes the cut, after which on_source_side() is valid. Stops after about this many looks at
     // arcs; the result is a cut then, but not the smallest. Returns the number of looks.
     std::int64_t run(std::int64_t most_looks);

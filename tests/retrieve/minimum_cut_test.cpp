@@ -21,14 +21,17 @@ TEST(MinimumCut, IsNoDearerThanAnyOther) {
     for (int round = 0; round < 200; ++round) {
         std::array<float, 10> prefers{};
         std::vector<Cost> costs;
-        MinimumCut cut(10);
+        MinimumCut cut(10, 20);
         for (std::int32_t i = 0; i < 10; ++i) {
             prefers[static_cast<std::size_t>(i)] = weight(random);
             cut.prefer_source(i, prefers[static_cast<std::size_t>(i)]);
         }
         for (int i = 0; i < 20; ++i) {
-            costs.push_back({node(random), node(random), std::abs(weight(random))});
-            cut.connect(costs.back().from, costs.back().to, costs.back().cost);
+            const Cost one{node(random), node(random), std::abs(weight(random))};
+            const Cost reverse{one.to, one.from, i % 2 == 0 ? 0 : std::abs(weight(random))};
+            costs.push_back(one);
+            costs.push_back(reverse);
+            cut.connect(one.from, one.to, one.cost, reverse.cost);
         }
         const auto cost_of = [&](unsigned on_source) {
             float sum = 0;
