@@ -204,16 +204,26 @@ void mark_ambiguous(SheetState& state) {
     }
 }
 
-void write_folds(const SheetState& state, SweepFolds& folds, Dealiased& dealiased) {
-    const auto first = static_cast<std::ptrdiff_t>(state.sheet.first_radial) * state.sheet.gates;
-    std::ranges::copy(state.gate_folds, folds.folds.begin() + first);
-    std::ranges::copy(state.ambiguous, folds.ambiguous.begin() + first);
-    for (std::size_t gate = 0; gate < state.gate_folds.size(); ++gate) {
-        if (std::isnan(state.sheet.turns[gate])) continue;
-        ++dealiased.gates;
-        if (state.gate_folds[gate] != 0) ++dealiased.folded_gates;
-        if (state.ambiguous[gate] != 0) ++dealiased.ambiguous_gates;
+// Writes the results of a sheet to the rows of its moment, which have `stride` gates.
+void write_folds(const SheetState& state, std::size_t stride, SweepFolds& folds,
+                 Dealiased& dealiased) {
+    const VelocitySheet& sheet = state.sheet;
+    for (int radial = 0; radial < sheet.radials; ++radial) {
+        const auto from = static_cast<std::ptrdiff_t>(sheet.at(radial, 0));
+        const auto to = static_cast<std::ptrdiff_t>(
+            (sheet.first_radial + static_cast<std::size_t>(radial)) * stride);
+        std::copy_n(state.gate_folds.begin() + from, sheet.gates, folds.folds.begin() + to);
+        std::copy_n(state.ambiguous.begin() + from, sheet.gates, folds.ambiguous.begin() + to);
+        std::fill_n(folds.ambiguous.begin() + to + sheet.gates,
+                    static_cast<std::ptrdiff_t>(stride) - sheet.gates, std::uint8_t{0});
     }
+    // Gates without a value have fold number 0 and no mark.
+    for (const float turns : sheet.turns)
+        dealiased.gates += std::isnan(turns) ? 0 : 1;
+    for (const std::int8_t fold : state.gate_folds)
+        dealiased.folded_gates += fold != 0 ? 1 : 0;
+    for (const std::uint8_t mark : state.ambiguous)
+        dealiased.ambiguous_gates += mark;
 }
 
 void mark_certain(const VelocitySheet& sheet, SweepFolds& folds) {
@@ -256,6 +266,8 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
             mark_certain(sheet, *by_moment.at({sheet.sweep, sheet.moment}));
         return dealiased;
     }
+    for (VelocitySheet& sheet : sheets)
+        drop_empty_gates(sheet);
     FoldedWind wind;
     if (rung != Dealiasing::region) wind = fit_folded_wind(sheets);
     std::vector<SheetState> states;
@@ -277,7 +289,10 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
     }
     for (const SheetState& state : states) {
         count_jumps(state, dealiased);
-        write_folds(state, *by_moment.at({state.sheet.sweep, state.sheet.moment}), dealiased);
+        const VelocitySheet& of = state.sheet;
+        const level2::SweepMoment& moment = volume.sweeps[of.sweep].moments[of.moment];
+        write_folds(state, static_cast<std::size_t>(moment.gate_stride),
+                    *by_moment.at({of.sweep, of.moment}), dealiased);
     }
     return dealiased;
 }

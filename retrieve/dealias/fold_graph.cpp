@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-
 #include <numeric>
 
 #include "retrieve/dealias/minimum_cut.h"

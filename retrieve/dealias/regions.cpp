@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "retrieve/dealias/offset_sets.h"
@@ -17,14 +16,18 @@ constexpr std::int32_t widest_gap = 100;
 // Size of the tiles into which regions are split.
 constexpr std::int32_t tile_radials = 8, tile_gates = 16;
 
-std::int8_t third_of(float turns) {
-    return turns < -1.0F / 6 ? -1 : turns < 1.0F / 6 ? 0 : 1;
+// Returns the number of the third, from 1 to 3, or 0 if there is no value. It has no branches, so
+// that the compiler handles several gates at once.
+std::uint8_t third_of(float turns) {
+    const int number =
+        (turns == turns ? 1 : 0) + (turns >= -1.0F / 6 ? 1 : 0) + (turns >= 1.0F / 6 ? 1 : 0);
+    return static_cast<std::uint8_t>(number);
 }
 
 class RegionFinder {
   public:
     explicit RegionFinder(const VelocitySheet& sheet)
-        : sheet_(sheet), last_(static_cast<std::size_t>(sheet.gates)) {}
+        : sheet_(sheet), last_run_(static_cast<std::size_t>(sheet.gates), -1) {}
 
     SheetRegions find() {
         cut_runs();
@@ -41,15 +44,9 @@ class RegionFinder {
 
   private:
     struct Kind {
-        std::int8_t third;
+        std::uint8_t third;
         bool begins_tile;  // is cut from the radial before
     };
-    struct Last {
-        std::int32_t run = -1;
-        std::int32_t turn = 0;  // radial number, which keeps rising on the second way round
-        float value = 0;
-    };
-
     SheetRegions find_between_runs() {
         sets_.emplace(static_cast<std::int32_t>(found_.runs.size()));
         for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
@@ -66,24 +63,23 @@ class RegionFinder {
     }
 
     void cut_runs() {
+        // A third that no gate has ends the last run of a radial.
+        std::vector<std::uint8_t> thirds(static_cast<std::size_t>(sheet_.gates) + 1, 4);
         for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
             found_.first_run.push_back(found_.runs.size());
-            const std::span row(sheet_.row(radial), static_cast<std::size_t>(sheet_.gates));
-            std::int32_t gate = 0;
-            while (gate < sheet_.gates) {
-                const float first = row[static_cast<std::size_t>(gate)];
-                if (std::isnan(first)) {
-                    ++gate;
-                    continue;
+            std::transform(sheet_.row(radial), sheet_.row(radial) + sheet_.gates, thirds.begin(),
+                           third_of);
+            for (auto begin = thirds.begin(); begin != thirds.end() - 1;) {
+                const std::uint8_t third = *begin;
+                const auto end = std::find_if(begin + 1, thirds.end(),
+                                              [&](std::uint8_t other) { return other != third; });
+                if (third != 0) {
+                    found_.runs.push_back({radial,
+                                           static_cast<std::int32_t>(begin - thirds.begin()),
+                                           static_cast<std::int32_t>(end - thirds.begin()), 0});
+                    kinds_.push_back({third, false});
                 }
-                const std::int8_t third = third_of(first);
-                std::int32_t end = gate + 1;
-                while (end < sheet_.gates && !std::isnan(row[static_cast<std::size_t>(end)]) &&
-                       third_of(row[static_cast<std::size_t>(end)]) == third)
-                    ++end;
-                found_.runs.push_back({radial, gate, end, 0});
-                kinds_.push_back({third, false});
-                gate = end;
+                begin = end;
             }
         }
         found_.first_run.push_back(found_.runs.size());
@@ -96,7 +92,7 @@ class RegionFinder {
             for (std::size_t q = regions.first_run[r]; q < regions.first_run[r + 1]; ++q) {
                 const Run& run = regions.runs[q];
                 const bool is_cut = is_split[static_cast<std::size_t>(run.region)] != 0;
-                const std::int8_t third = third_of(sheet_.row(radial)[run.begin]);
+                const std::uint8_t third = third_of(sheet_.row(radial)[run.begin]);
                 for (std::int32_t begin = run.begin; begin < run.end;) {
                     const std::int32_t end =
                         is_cut ? std::min(run.end, (begin / tile_gates + 1) * tile_gates) : run.end;
@@ -134,48 +130,57 @@ class RegionFinder {
     }
 
     // Adds the votes between each gate of a radial and the last gate with a value at the same range
-    // in earlier radials.
+    // in earlier radials. `turn` is the number of the radial, which keeps rising on the second way
+    // round.
     void meet_before(std::int32_t radial, std::int32_t turn) {
         const auto r = static_cast<std::size_t>(radial);
-        for (std::size_t q = found_.first_run[r]; q < found_.first_run[r + 1]; ++q)
-            meet_before(static_cast<std::int32_t>(q), turn, sheet_.row(radial));
+        for (std::size_t q = found_.first_run[r]; q < found_.first_run[r + 1]; ++q) {
+            meet_runs_before(static_cast<std::int32_t>(q), turn);
+            // On the second way round, later radials have already met this one.
+            const Run& run = found_.runs[q];
+            std::fill(last_run_.begin() + run.begin, last_run_.begin() + run.end,
+                      turn == radial ? static_cast<std::int32_t>(q) : -1);
+        }
     }
 
-    void meet_before(std::int32_t q, std::int32_t turn, const float* row) {
+    void meet_runs_before(std::int32_t q, std::int32_t turn) {
         const Run& run = found_.runs[static_cast<std::size_t>(q)];
         const Kind kind = kinds_[static_cast<std::size_t>(q)];
+        const float* row = sheet_.row(run.radial);
         FoldEdge edge{-1, q, {}};
-        std::int32_t joined = -1;
-        for (std::int32_t gate = run.begin; gate < run.end; ++gate) {
-            Last& last = last_[static_cast<std::size_t>(gate)];
-            const Last before = std::exchange(last, {q, turn, row[gate]});
-            const std::int32_t steps = turn - before.turn;
-            // On the second way round, skip pairs that have already met on the first.
-            if (before.run < 0 || steps > widest_gap || before.run == q ||
-                (turn != run.radial && before.turn != before_end(before)))
+        for (std::int32_t gate = run.begin; gate < run.end;) {
+            const std::int32_t b = last_run_[static_cast<std::size_t>(gate)];
+            if (b < 0 || b == q) {
+                ++gate;
                 continue;
-            if (steps == 1) {
-                ++found_.pairs;
-                if (std::abs(before.value - row[gate]) > 0.5F) ++found_.jumps;
-                if (!kind.begins_tile &&
-                    kinds_[static_cast<std::size_t>(before.run)].third == kind.third) {
-                    if (joined != before.run) sets_->join(before.run, q, 0);
-                    joined = before.run;
-                    continue;
+            }
+            const Run& before = found_.runs[static_cast<std::size_t>(b)];
+            const std::int32_t steps = turn - before.radial;
+            // All gates of a run in the radial before are the last at their ranges.
+            const std::int32_t end = steps == 1 ? std::min(run.end, before.end) : gate + 1;
+            if (steps == 1) found_.pairs += end - gate;
+            if (steps == 1 && !kind.begins_tile &&
+                kinds_[static_cast<std::size_t>(b)].third == kind.third) {
+                sets_->join(b, q, 0);
+            } else if (steps <= widest_gap) {
+                if (b != edge.a) {
+                    if (edge.a >= 0) found_.edges.push_back(edge);
+                    edge = {b, q, {}};
                 }
+                vote_of_gates(edge, sheet_.row(before.radial), row, gate, end, steps);
             }
-            if (before.run != edge.a) {
-                if (edge.a >= 0) found_.edges.push_back(edge);
-                edge = {before.run, q, {}};
-            }
-            vote(edge, before.value, row[gate], 1.0F / static_cast<float>(steps));
+            gate = end;
         }
         if (edge.a >= 0) found_.edges.push_back(edge);
     }
 
-    // Returns the turn that the gate had on the first way round.
-    [[nodiscard]] std::int32_t before_end(const Last& last) const {
-        return found_.runs[static_cast<std::size_t>(last.run)].radial;
+    void vote_of_gates(FoldEdge& edge, const float* before, const float* row, std::int32_t begin,
+                       std::int32_t end, std::int32_t steps) {
+        const float weight = 1.0F / static_cast<float>(steps);
+        for (std::int32_t gate = begin; gate < end; ++gate) {
+            vote(edge, before[gate], row[gate], weight);
+            if (steps == 1 && std::abs(before[gate] - row[gate]) > 0.5F) ++found_.jumps;
+        }
     }
 
     void name_regions() {
@@ -199,8 +204,9 @@ class RegionFinder {
 
     const VelocitySheet& sheet_;
     SheetRegions found_;
-    std::vector<Kind> kinds_;         // of each run
-    std::vector<Last> last_;          // of each gate number
+    std::vector<Kind> kinds_;  // of each run
+    // The last run with a value at each gate number.
+    std::vector<std::int32_t> last_run_;
     std::optional<OffsetSets> sets_;  // of runs
 };
 

@@ -27,11 +27,12 @@ constexpr float weight_of_staying = 0.06F;
 class ShearRepair {
   public:
     ShearRepair(const VelocitySheet& sheet, std::vector<std::int8_t>& folds)
-        : sheet_(sheet), folds_(folds), node_(folds.size(), -1) {}
+        : sheet_(sheet), folds_(folds) {}
 
     void run() {
         mark_about_jumps();
         if (marked_.empty()) return;
+        node_.assign(folds_.size(), -1);
         for (std::size_t i = 0; i < marked_.size(); ++i)
             node_[marked_[i]] = static_cast<std::int32_t>(i);
         gather_votes();
@@ -64,20 +65,10 @@ class ShearRepair {
         if (radial + 1 < sheet_.radials) return radial + 1;
         return sheet_.is_circle ? 0 : -1;
     }
-    // Calls use(a, b) for each pair of adjacent gates with values.
-    template <class Use>
-    void for_each_pair(Use use) const {
-        for (int radial = 0; radial < sheet_.radials; ++radial) {
-            const int next = after(radial);
-            for (int gate = 0; gate < sheet_.gates; ++gate) {
-                const std::size_t here = sheet_.at(radial, gate);
-                if (!has_value(here)) continue;
-                if (gate + 1 < sheet_.gates && has_value(here + 1)) use(here, here + 1);
-                if (next >= 0 && has_value(sheet_.at(next, gate))) use(here, sheet_.at(next, gate));
-            }
-        }
+    [[nodiscard]] int before(int radial) const {
+        if (radial > 0) return radial - 1;
+        return sheet_.is_circle ? sheet_.radials - 1 : -1;
     }
-
     // Counts the pairs, and the pairs that jump, that begin in a block of gates.
     struct Block {
         int pairs = 0, jumps = 0;
@@ -155,25 +146,37 @@ class ShearRepair {
         anchors_.resize(marked_.size());
         for (std::size_t i = 0; i < marked_.size(); ++i)
             anchors_[i].add(folds_[marked_[i]], weight_of_staying);
-        for_each_pair([&](std::size_t a, std::size_t b) {
-            const std::int32_t of_a = node_[a], of_b = node_[b];
-            if (of_a < 0 && of_b < 0) return;
-            const float turns = sheet_.turns[a] - sheet_.turns[b];
-            const float whole = std::nearbyint(turns);
-            const float weight = vote_weight(turns - whole);
-            const int number = static_cast<int>(whole);
-            if (of_a >= 0 && of_b >= 0) {
-                FoldEdge edge{of_a, of_b, {}};
-                edge.votes.add(number, weight);
-                edges_.push_back(edge);
-            } else if (of_b >= 0) {
-                anchors_[static_cast<std::size_t>(of_b)].add(folds_[a] + number, weight);
-            } else {
-                anchors_[static_cast<std::size_t>(of_a)].add(folds_[b] - number, weight);
-            }
-        });
+        for (const std::size_t here : marked_) {
+            const int radial = radial_of(here), gate = gate_of(here);
+            const int before = this->before(radial), after = this->after(radial);
+            if (gate + 1 < sheet_.gates) meet(here, here + 1);
+            if (after >= 0) meet(here, sheet_.at(after, gate));
+            // The pair before a gate is known unless its other gate is not marked.
+            if (gate > 0 && node_[here - 1] < 0) meet(here - 1, here);
+            if (before >= 0 && node_[sheet_.at(before, gate)] < 0)
+                meet(sheet_.at(before, gate), here);
+        }
         for (const Votes& votes : anchors_)
             bound_.push_back(votes.total());
+    }
+
+    // Adds the votes of two adjacent gates, one of which is marked.
+    void meet(std::size_t a, std::size_t b) {
+        const float turns = sheet_.turns[a] - sheet_.turns[b];
+        if (std::isnan(turns)) return;
+        const std::int32_t of_a = node_[a], of_b = node_[b];
+        const float whole = std::nearbyint(turns);
+        const float weight = vote_weight(turns - whole);
+        const int number = static_cast<int>(whole);
+        if (of_a >= 0 && of_b >= 0) {
+            FoldEdge edge{of_a, of_b, {}};
+            edge.votes.add(number, weight);
+            edges_.push_back(edge);
+        } else if (of_b >= 0) {
+            anchors_[static_cast<std::size_t>(of_b)].add(folds_[a] + number, weight);
+        } else {
+            anchors_[static_cast<std::size_t>(of_a)].add(folds_[b] - number, weight);
+        }
     }
 
     const VelocitySheet& sheet_;

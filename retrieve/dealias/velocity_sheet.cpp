@@ -120,4 +120,22 @@ std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume) {
     return sheets;
 }
 
+void drop_empty_gates(VelocitySheet& sheet) {
+    int kept = 0;
+    for (int radial = 0; radial < sheet.radials; ++radial) {
+        const float* row = sheet.row(radial);
+        int gate = sheet.gates;
+        while (gate > kept && std::isnan(row[gate - 1]))
+            --gate;
+        kept = gate;
+    }
+    auto to = sheet.turns.begin();
+    for (int radial = 0; radial < sheet.radials; ++radial) {
+        const auto from = sheet.turns.begin() + static_cast<std::ptrdiff_t>(sheet.at(radial, 0));
+        to = std::copy(from, from + kept, to);
+    }
+    sheet.turns.resize(static_cast<std::size_t>(sheet.radials) * static_cast<std::size_t>(kept));
+    sheet.gates = kept;
+}
+
 }  // namespace stormcellar::retrieve

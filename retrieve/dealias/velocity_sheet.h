@@ -59,4 +59,8 @@ struct VelocitySheet {
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep,
                                                          std::size_t moment);
 
+// Drops the gates beyond the last gate at which a radial has a value, which are many in high
+// sweeps.
+void drop_empty_gates(VelocitySheet& sheet);
+
 }  // namespace stormcellar::retrieve
