@@ -9,8 +9,6 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr double height_of_decay_m = 1000;
-
 // Finds the radial nearest to an azimuth.
 class RadialsByAzimuth {
   public:
@@ -52,7 +50,8 @@ struct GateBeside {
     int gate = -1;
     float weight = 0;
 };
-std::vector<GateBeside> gates_beside(const SheetState& other, const SheetState& state) {
+std::vector<GateBeside> gates_beside(const SheetState& other, const SheetState& state,
+                                     float weight) {
     const double ratio =
         std::cos(state.sheet.elevation_deg * degree) / std::cos(other.sheet.elevation_deg * degree);
     std::vector<GateBeside> gates(static_cast<std::size_t>(state.sheet.gates));
@@ -64,9 +63,8 @@ std::vector<GateBeside> gates_beside(const SheetState& other, const SheetState& 
         if (!(there > -0.5 && there < other.sheet.gates - 0.5)) continue;
         const auto number = static_cast<std::size_t>(std::lrint(there));
         const float apart_m = std::abs(other.heights_m[number] - state.heights_m[gate]);
-        gates[gate] = {
-            static_cast<int>(number),
-            neighbor_weight * std::exp(-apart_m / static_cast<float>(height_of_decay_m))};
+        gates[gate] = {static_cast<int>(number),
+                       weight * std::exp(-apart_m / static_cast<float>(height_of_decay_m))};
     }
     return gates;
 }
@@ -124,11 +122,11 @@ void anchor_to_wind(const FoldedWind& wind, const SheetState& state, std::vector
     }
 }
 
-void anchor_to_sheet(const SheetState& other, const SheetState& state,
-                     std::vector<Votes>& anchors) {
+void anchor_to_sheet(const SheetState& other, const SheetState& state, std::vector<Votes>& anchors,
+                     float weight) {
     const VelocitySheet& sheet = state.sheet;
     const RadialsByAzimuth radials(other.sheet);
-    const std::vector<GateBeside> beside = gates_beside(other, state);
+    const std::vector<GateBeside> beside = gates_beside(other, state, weight);
     const auto ratio = static_cast<float>(other.sheet.turn_mps / sheet.turn_mps);
     for (int radial = 0; radial < sheet.radials; ++radial) {
         const auto r = static_cast<std::size_t>(radial);

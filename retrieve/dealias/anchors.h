@@ -20,7 +20,7 @@ struct SheetState {
     SheetRegions regions;
     FoldGraph graph;
     std::vector<std::int32_t> folds;    // of each node
-    std::vector<Votes> wind_anchors;    // of each node
+    std::vector<Votes> outer_anchors;   // of each node, from outside the volume's sweeps
     std::vector<std::uint8_t> guessed;  // of each node
     std::vector<float> heights_m;       // of each gate number, above the antenna
     // of each gate, radials x gates; fill_gate_folds() makes them from `folds`
@@ -38,6 +38,9 @@ struct SheetState {
 inline constexpr float wind_weight = 0.02F;     // where all gates agree with the wind
 inline constexpr float neighbor_weight = 0.1F;  // at the same height
 
+// The vote of a gate above or below loses a factor of e in this distance.
+inline constexpr double height_of_decay_m = 1000;
+
 // The largest weight that anchors can give to a gate.
 inline constexpr float most_anchor_weight = wind_weight + 2 * neighbor_weight;
 
@@ -45,7 +48,8 @@ inline constexpr float most_anchor_weight = wind_weight + 2 * neighbor_weight;
 void anchor_to_wind(const FoldedWind& wind, const SheetState& state, std::vector<Votes>& anchors);
 
 // Adds the votes of another sheet, whose gate_folds must be known. Each gate gets the vote of the
-// gate of `other` above or below it.
-void anchor_to_sheet(const SheetState& other, const SheetState& state, std::vector<Votes>& anchors);
+// gate of `other` above or below it, which weighs up to `weight` and less with distance.
+void anchor_to_sheet(const SheetState& other, const SheetState& state, std::vector<Votes>& anchors,
+                     float weight = neighbor_weight);
 
 }  // namespace stormcellar::retrieve

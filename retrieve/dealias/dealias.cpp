@@ -9,6 +9,7 @@
 #include "base/degree.h"
 #include "retrieve/dealias/ambiguity.h"
 #include "retrieve/dealias/anchors.h"
+#include "retrieve/dealias/known_sheet.h"
 #include "retrieve/dealias/linked_regions.h"
 #include "retrieve/dealias/roughness.h"
 #include "retrieve/dealias/shear_repair.h"
@@ -102,13 +103,15 @@ std::vector<std::size_t> by_elevation(const std::vector<SheetState>& states) {
     return order;
 }
 
-void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
+void solve_anchored(std::vector<SheetState>& states, std::span<const SheetState> known,
+                    const FoldedWind& wind) {
     for (SheetState& state : states) {
         for (int i = 0; i < 2; ++i) {
             if (i > 0 && !split_linked_regions(state, most_anchor_weight)) break;
-            state.wind_anchors.assign(at(state.graph.nodes), {});
-            anchor_to_wind(wind, state, state.wind_anchors);
-            minimize_cost(state.graph, state.wind_anchors, state.folds);
+            state.outer_anchors.assign(at(state.graph.nodes), {});
+            anchor_to_wind(wind, state, state.outer_anchors);
+            anchor_to_known(known, state, state.outer_anchors);
+            minimize_cost(state.graph, state.outer_anchors, state.folds);
         }
         state.fill_gate_folds();
     }
@@ -118,7 +121,7 @@ void solve_anchored(std::vector<SheetState>& states, const FoldedWind& wind) {
         for (std::size_t i = 0; i < order.size(); ++i) {
             const std::size_t place = is_downward ? order.size() - 1 - i : i;
             SheetState& state = states[order[place]];
-            std::vector<Votes> anchors = state.wind_anchors;
+            std::vector<Votes> anchors = state.outer_anchors;
             if (place > 0) anchor_to_sheet(states[order[place - 1]], state, anchors);
             if (place + 1 < order.size()) anchor_to_sheet(states[order[place + 1]], state, anchors);
             minimize_cost(state.graph, anchors, state.folds);
@@ -250,7 +253,8 @@ Dealiased empty_folds(const level2::Volume& volume, bool ambiguous) {
 
 }  // namespace
 
-Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
+Dealiased dealias(const level2::Volume& volume, Dealiasing rung,
+                  std::span<const level2::Sweep> known_sweeps) {
     const bool is_wanted = rung != Dealiasing::off;
     if (rung == Dealiasing::automatic)
         rung = needs_dealiasing(volume) ? Dealiasing::anchored : Dealiasing::off;
@@ -268,8 +272,11 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
     }
     for (VelocitySheet& sheet : sheets)
         drop_empty_gates(sheet);
+    std::vector<SheetState> known;
+    if (rung == Dealiasing::anchored) known = known_sheets(known_sweeps);
     FoldedWind wind;
     if (rung != Dealiasing::region) wind = fit_folded_wind(sheets);
+    const float most_weight = most_anchor_weight + (known.empty() ? 0 : most_known_weight);
     std::vector<SheetState> states;
     states.reserve(sheets.size());
     for (VelocitySheet& sheet : sheets) {
@@ -279,10 +286,10 @@ Dealiased dealias(const level2::Volume& volume, Dealiasing rung) {
         if (rung == Dealiasing::profile)
             unfold_to_wind(wind, state);
         else
-            find_graph(state, rung == Dealiasing::anchored ? most_anchor_weight : 0);
+            find_graph(state, rung == Dealiasing::anchored ? most_weight : 0);
         if (rung == Dealiasing::region) solve_alone(state);
     }
-    if (rung == Dealiasing::anchored) solve_anchored(states, wind);
+    if (rung == Dealiasing::anchored) solve_anchored(states, known, wind);
     for (SheetState& state : states) {
         if (rung == Dealiasing::anchored) mark_islands(wind, state);
         if (rung != Dealiasing::profile) mark_ambiguous(state);

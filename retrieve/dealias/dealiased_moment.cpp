@@ -100,11 +100,12 @@ bool needs_dealiasing(const level2::Volume& volume) {
     return jumps * pairs_per_jump > pairs;
 }
 
-Result<Dealiased> add_dealiased_velocity(level2::Volume& volume, Dealiasing rung) {
+Result<Dealiased> add_dealiased_velocity(level2::Volume& volume, Dealiasing rung,
+                                         std::span<const level2::Sweep> known) {
     for (level2::Sweep& sweep : volume.sweeps)
         std::erase_if(sweep.moments,
                       [](const SweepMoment& kind) { return kind.moment == Moment::veld; });
-    Dealiased dealiased = dealias(volume, rung);
+    Dealiased dealiased = dealias(volume, rung, known);
     if (dealiased.sweeps.empty()) return fail(ErrorCode::not_found, "the volume has no velocities");
     for (const SweepFolds& folds : dealiased.sweeps) {
         level2::Sweep& sweep = volume.sweeps[folds.sweep];

@@ -62,6 +62,7 @@ VelocitySheet sheet_of(const level2::Sweep& sweep, const level2::SweepMoment& mo
     sheet.turn_mps = 2 * static_cast<double>(sweep.radials[first].nyquist_mps);
     sheet.turns.assign((end - first) * static_cast<std::size_t>(sheet.gates), no_value);
     const TurnsOfCodes turns(moment, sheet.turn_mps);
+    sheet.time = sweep.radials[(first + end) / 2].time;
     double elevations = 0;
     for (std::size_t radial = first; radial < end; ++radial) {
         turns.fill(radial, sheet.turns.data() + sheet.at(static_cast<int>(radial - first), 0));
@@ -84,9 +85,9 @@ bool can_be_unfolded(const level2::Radial& radial) {
 std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep, std::size_t moment_index) {
     std::vector<VelocitySheet> sheets;
     const level2::SweepMoment& moment = sweep.moments[moment_index];
-    if (moment.moment != level2::Moment::vel || moment.gate_stride <= 0 ||
-        moment.gate_spacing_m <= 0)
-        return sheets;
+    const bool is_velocity =
+        moment.moment == level2::Moment::vel || moment.moment == level2::Moment::veld;
+    if (!is_velocity || moment.gate_stride <= 0 || moment.gate_spacing_m <= 0) return sheets;
     const auto counts = [&](std::size_t radial) {
         return moment.gate_counts[radial] > 0 && can_be_unfolded(sweep.radials[radial]);
     };
@@ -111,6 +112,7 @@ std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume) {
     std::vector<VelocitySheet> sheets;
     for (std::size_t s = 0; s < volume.sweeps.size(); ++s) {
         for (std::size_t m = 0; m < volume.sweeps[s].moments.size(); ++m) {
+            if (volume.sweeps[s].moments[m].moment != level2::Moment::vel) continue;
             for (VelocitySheet& sheet : velocity_sheets(volume.sweeps[s], m)) {
                 sheet.sweep = s;
                 sheets.push_back(std::move(sheet));

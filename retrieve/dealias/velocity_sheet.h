@@ -39,6 +39,7 @@ struct VelocitySheet {
     double turn_mps = 0;
     double elevation_deg = 0;  // mean of the radials
     bool is_circle = false;    // the last radial is beside the first
+    UtcTime time;              // of the middle radial
     std::vector<float> azimuths_deg;
     std::vector<float> turns;  // radials x gates; NaN where a gate has no value
 
@@ -51,11 +52,12 @@ struct VelocitySheet {
     }
 };
 
-// Returns the sheets of all velocity moments, in the order of the volume. Leaves out sheets without
+// Returns the sheets of all moments VEL, in the order of the volume. Leaves out sheets without
 // a value, and radials for which can_be_unfolded() is false.
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Volume& volume);
-// Returns the sheets of one moment of a sweep, for which VelocitySheet::sweep is 0; none if the
-// moment is no velocity.
+// Returns the sheets of one moment of a sweep, for which VelocitySheet::sweep is 0; none unless the
+// moment is VEL or VELD. The turns of VELD may be any number, and its ambiguous gates have no
+// value.
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep,
                                                          std::size_t moment);
 

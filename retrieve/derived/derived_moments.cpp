@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "retrieve/derived/read_folds.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -87,18 +88,40 @@ SweepMoment storm_relative_moment(const level2::Sweep& sweep, const SweepMoment&
     return made;
 }
 
-void add_storm_relative(level2::Volume& volume, const Motion& storm) {
+// Notes of mosaics begin with the station, as in "KTLX: storm motion 240/15, as given".
+constexpr std::string_view motion_words = "storm motion ";
+
+void remove_storm_relative(level2::Volume& volume) {
+    for (level2::Sweep& sweep : volume.sweeps)
+        std::erase_if(sweep.moments,
+                      [](const SweepMoment& kind) { return kind.moment == Moment::srv; });
+}
+
+// Adds SRV and returns the notes.
+Result<std::vector<std::string>> add_storm_relative(level2::Volume& volume,
+                                                    const Dealiased& dealiased,
+                                                    const MotionChoice& choice) {
+    const auto storm = chosen_motion(volume, dealiased, choice);
+    if (!storm) return pass_on(storm);
     for (level2::Sweep& sweep : volume.sweeps) {
         std::vector<SweepMoment> made;
         for (const SweepMoment& kind : sweep.moments)
             if (kind.moment == Moment::veld)
-                made.push_back(storm_relative_moment(sweep, kind, storm));
+                made.push_back(storm_relative_moment(sweep, kind, storm->motion));
         std::ranges::move(made, std::back_inserter(sweep.moments));
     }
+    return std::vector{
+        fmt::format("{}{}, {}", motion_words, format_motion(storm->motion), storm->source)};
 }
 
-// Notes of mosaics begin with the station, as in "KTLX: storm motion 240/15, as given".
-constexpr std::string_view motion_words = "storm motion ";
+// Returns a copy of the sweep without its other moments.
+level2::Sweep velocities_of(const level2::Sweep& sweep) {
+    level2::Sweep copy{sweep.elevation_number,  sweep.message_type, sweep.azimuth_spacing_deg,
+                       sweep.vcp_elevation_deg, sweep.radials,      {}};
+    std::ranges::copy_if(sweep.moments, std::back_inserter(copy.moments),
+                         [](const SweepMoment& kind) { return kind.moment == Moment::vel; });
+    return copy;
+}
 
 }  // namespace
 
@@ -120,19 +143,21 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
                                     const DerivedOptions& options) {
     if (options.dealiasing == Dealiasing::off)
         return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");
-    for (level2::Sweep& sweep : volume.sweeps)
-        std::erase_if(sweep.moments,
-                      [](const SweepMoment& kind) { return kind.moment == Moment::srv; });
+    remove_storm_relative(volume);
     auto dealiased = add_dealiased_velocity(volume, options.dealiasing);
     if (!dealiased) return pass_on(dealiased);
     Derived derived{std::move(*dealiased), {}};
     if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
-    const auto storm = chosen_motion(volume, derived.dealiased, options.motion);
-    if (!storm) return pass_on(storm);
-    add_storm_relative(volume, storm->motion);
-    derived.notes.push_back(
-        fmt::format("{}{}, {}", motion_words, format_motion(storm->motion), storm->source));
+    auto notes = add_storm_relative(volume, derived.dealiased, options.motion);
+    if (!notes) return pass_on(notes);
+    derived.notes = std::move(*notes);
     return derived;
+}
+
+Result<std::vector<std::string>> add_storm_relative_velocity(level2::Volume& volume,
+                                                             const MotionChoice& motion) {
+    remove_storm_relative(volume);
+    return add_storm_relative(volume, read_folds(volume), motion);
 }
 
 Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
@@ -145,19 +170,19 @@ Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
                         volume.vcp,
                         volume.vcp_source,
                         {}};
-    for (const level2::Sweep& sweep : volume.sweeps) {
-        level2::Sweep& copy = made.sweeps.emplace_back(level2::Sweep{sweep.elevation_number,
-                                                                     sweep.message_type,
-                                                                     sweep.azimuth_spacing_deg,
-                                                                     sweep.vcp_elevation_deg,
-                                                                     sweep.radials,
-                                                                     {}});
-        std::ranges::copy_if(sweep.moments, std::back_inserter(copy.moments),
-                             [](const SweepMoment& kind) { return kind.moment == Moment::vel; });
-    }
+    for (const level2::Sweep& sweep : volume.sweeps)
+        made.sweeps.push_back(velocities_of(sweep));
     auto derived = add_derived_moments(made, wanted, options);
     if (!derived) return pass_on(derived);
     return DerivedVolume{std::move(made), std::move(derived->notes)};
+}
+
+level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
+                              std::span<const level2::Sweep> known) {
+    level2::Volume alone;
+    alone.sweeps.push_back(velocities_of(sweep));
+    (void)add_dealiased_velocity(alone, rung, known);  // fails if there is nothing to dealias
+    return std::move(alone.sweeps.front());
 }
 
 std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {

@@ -154,6 +154,25 @@ TEST(StormRelativeVelocity, TakesTheMotionFromTheWindProfile) {
     }
 }
 
+// The fold numbers, which the wind profile needs, are read back from VELD.
+TEST(StormRelativeVelocity, ComesAlsoFromSweepsThatWereDealiasedBefore) {
+    level2::Volume at_once = fold(quiet_air(15), wind_between({2, 10}, {34, 10})).volume;
+    level2::Volume later = at_once;
+    for (level2::Sweep& sweep : later.sweeps)
+        sweep = dealiased_sweep(sweep, Dealiasing::anchored, {});
+    ASSERT_EQ(later.sweeps.front().moments.size(), 2U);
+    const auto derived = add_derived_moments(at_once, srv_alone, given("right"));
+    const auto notes = add_storm_relative_velocity(later, given("right").motion);
+    ASSERT_TRUE(derived && notes);
+    EXPECT_EQ(*notes, derived->notes);
+    for (std::size_t i = 0; i < later.sweeps.size(); ++i)
+        EXPECT_EQ(later.sweeps[i].find(Moment::srv)->codes16,
+                  at_once.sweeps[i].find(Moment::srv)->codes16);
+    level2::Volume without = fold(quiet_air(15), in_uniform_wind({3, 4})).volume;
+    EXPECT_FALSE(add_storm_relative_velocity(without, given("right").motion))
+        << "without VELD there is no wind";
+}
+
 // The tornado of Moore moved toward the radar, so its velocities were -49 and +23 m/s. Seen from
 // the storm, both sides of the vortex are about equally strong.
 TEST(StormRelativeVelocity, BalancesTheTornadoOfMoore) {

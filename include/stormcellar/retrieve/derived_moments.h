@@ -77,6 +77,15 @@ struct DerivedVolume {
                                                        std::span<const level2::Moment> wanted,
                                                        const DerivedOptions& options = {});
 
+// Returns a copy of a sweep that has only its velocities and VELD. `known` votes as in dealias().
+[[nodiscard]] level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
+                                            std::span<const level2::Sweep> known);
+
+// Adds SRV to a volume that has VELD, as add_derived_moments() does, and returns the notes. Errors:
+// not_found if the wind profile gives no motion.
+[[nodiscard]] Result<std::vector<std::string>> add_storm_relative_velocity(
+    level2::Volume& volume, const MotionChoice& motion);
+
 // Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
 // or if the sites of a mosaic have different motions.
 [[nodiscard]] std::optional<Motion> motion_in_notes(std::span<const std::string> notes);
