@@ -33,6 +33,7 @@ constexpr std::array unit_names = {UnitName{"m", Slot::position, 1, 1},
                                    UnitName{"m/s", Slot::value, 1, 1, ValueUnit::mps},
                                    UnitName{"deg", Slot::value, 1, 1, ValueUnit::degree},
                                    UnitName{"ratio", Slot::value, 1, 1, ValueUnit::ratio},
+                                   UnitName{"0.001/s", Slot::value, 1, 1, ValueUnit::per_1000_s},
                                    UnitName{"de", Slot::image, 1, 1},
                                    UnitName{"s", Slot::time, 1, 1},
                                    UnitName{"ms", Slot::time, 1, 1000}};
@@ -94,10 +95,11 @@ Status take_part(std::string_view text, Budget& budget) {
         std::find_if(unit_names.begin(), unit_names.end(),
                      [&](const UnitName& candidate) { return candidate.name == part->unit; });
     if (unit == unit_names.end()) {
-        return fail(
-            ErrorCode::bad_argument,
-            "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, dE, ms and s",
-            printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
+        return fail(ErrorCode::bad_argument,
+                    "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, "
+                    "0.001/s, dE, ms and "
+                    "s",
+                    printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
     // Test before multiplying, so that no overflow raises a floating-point trap.
     if (part->number > std::numeric_limits<double>::max() / unit->multiply) {

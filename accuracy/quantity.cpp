@@ -18,7 +18,7 @@ constexpr double digit_slack = 1e-12;
 }  // namespace
 
 std::string_view name_of(ValueUnit unit) {
-    constexpr std::array<std::string_view, 4> names = {"dB", "m/s", "deg", "ratio"};
+    constexpr std::array<std::string_view, 5> names = {"dB", "m/s", "deg", "ratio", "0.001/s"};
     return names[static_cast<std::size_t>(unit)];
 }
 

@@ -28,6 +28,16 @@ constexpr auto moment_rules = std::to_array<MomentRules>({
      ValueUnit::mps,
      false,
      "each measures along its own beams, relative to its own storm motion"},
+    {Moment::azsh,
+     {2, -1024, 0.03125F, true},
+     ValueUnit::per_1000_s,
+     false,
+     "each measures along its own beams"},
+    {Moment::divg,
+     {2, -1024, 0.03125F, true},
+     ValueUnit::per_1000_s,
+     false,
+     "each measures along its own beams"},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 

@@ -252,6 +252,9 @@ const ColorTable& default_color_table(Moment moment) {
 const ColorTable& smooth_color_table(Moment moment) {
     return table_named(look_of(moment).smooth);
 }
+Moment table_moment(Moment moment) {
+    return smooth_color_table(moment).moment;
+}
 const ColorTable* table_of_family(std::string_view family, Moment moment) {
     if (family == color_families[0]) return &smooth_color_table(moment);
     if (family == color_families[1]) return &default_color_table(moment);

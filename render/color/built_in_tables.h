@@ -55,6 +55,8 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 // Return the default tables of a moment, with classes and without.
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
+// Returns the moment whose tables a moment has: VEL for VELD and SRV, AZSH for DIVG.
+[[nodiscard]] level2::Moment table_moment(level2::Moment moment);
 [[nodiscard]] const ColorTable& clear_air_colors();
 [[nodiscard]] const ColorTable& echo_top_colors();
 [[nodiscard]] const ColorTable& vil_colors();

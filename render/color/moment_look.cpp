@@ -15,7 +15,7 @@ namespace {
 
 using level2::Moment;
 
-constexpr float lowest_velocity = -64, lowest_zdr = -13;
+constexpr float lowest_velocity = -64, lowest_zdr = -13, lowest_shear = -128;
 constexpr int pieces_between_anchors = 8;
 
 struct Anchor {
@@ -81,6 +81,25 @@ constexpr Anchor velocity_anchors[] = {
     {64, 0xFFF8EA},
 };
 
+constexpr Anchor shear_anchors[] = {
+    {lowest_shear, 0xF2F7FF},
+    {-40, 0xDCE9FF},
+    {-20, 0xA9C8FF},
+    {-12, 0x6FA0F5},
+    {-8, 0x4A80DC},
+    {-5, 0x3A68B4},
+    {-3, 0x42597F},
+    {-1, 0x55585E},
+    {0, 0x5A5A5A},
+    {1, 0x625850},
+    {3, 0x8A5F3A},
+    {5, 0xB8702C},
+    {8, 0xD27A1E},
+    {12, 0xF09A24},
+    {20, 0xFFDD80},
+    {40, 0xFFF0B8},
+};
+
 constexpr Anchor spectrum_width_anchors[] = {
     {0, 0x2F3A4A}, {2, 0x3B5B86},  {4, 0x3F86A8},  {6, 0x56B59B},
     {8, 0xA3D36B}, {10, 0xF3E24F}, {14, 0xFFF9DA},
@@ -121,6 +140,7 @@ constexpr std::array smooth_tables{
     SmoothTable{"smooth-phi", Moment::phi, phi_anchors, 361},
     SmoothTable{"smooth-rho", Moment::rho, rho_anchors, 1.06F},
     SmoothTable{"smooth-cfp", Moment::cfp, cfp_anchors, 60},
+    SmoothTable{"smooth-shear", Moment::azsh, shear_anchors, 41, -40.0F},
     SmoothTable{"smooth-clear-air", Moment::ref, clear_air_anchors, 55},
 };
 
@@ -185,6 +205,10 @@ std::vector<ExtinctionPoint> velocity_extinction(float /*lowest*/) {
             {30, 0.2},
             {50, 0.5}};
 }
+std::vector<ExtinctionPoint> shear_extinction(float /*lowest*/) {
+    return {{lowest_shear, 1}, {-20, 0.6}, {-10, 0.15}, {-4, 0.01}, {0, 0.001},
+            {4, 0.01},         {10, 0.15}, {20, 0.6},   {128, 1}};
+}
 std::vector<ExtinctionPoint> spectrum_width_extinction(float /*lowest*/) {
     return {{0, 0.004}, {4, 0.03}, {8, 0.12}, {12, 0.4}};
 }
@@ -214,6 +238,8 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
     {Moment::veld, "Dealiased velocity", "nws-velocity", "smooth-velocity", velocity_extinction},
     {Moment::srv, "Storm-relative velocity", "nws-velocity", "smooth-velocity",
      velocity_extinction},
+    {Moment::azsh, "Azimuthal shear", "smooth-shear", "smooth-shear", shear_extinction},
+    {Moment::divg, "Radial divergence", "smooth-shear", "smooth-shear", shear_extinction},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 

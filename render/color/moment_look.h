@@ -3,6 +3,9 @@
 //
 //   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho,
 //   smooth-phi, smooth-cfp
+//   smooth-shear        orange where counterclockwise or diverging, blue where the opposite,
+//   lighter
+//                       with strength
 //   smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and dust
 // Colors change evenly from anchor to anchor in OKLab. The hues of smooth-reflectivity are familiar
 // to forecasters. They change within 1 dB of 20, 35, 50 and 65 dBZ, so that these bounds can be
@@ -11,10 +14,10 @@
 // except the circle of phases, become lighter with the value.
 //
 // For every kind of color vision the colors of two values differ by least_smooth_step or more
-// (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 4 m/s of
-// spectrum width, 2 dB of ZDR, 0.1 of RHO above 0.7, 60 degrees of PHI, 15 dB of CFP
-// (tests/render/safe_tables_test.cpp). The stepped safe tables have this difference between
-// neighboring classes, which are narrower.
+// (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 0.005/s of
+// shear up to 0.02/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of RHO above 0.7, 60 degrees of
+// PHI, 15 dB of CFP (tests/render/safe_tables_test.cpp). The stepped safe tables have this
+// difference between neighboring classes, which are narrower.
 //
 // Threads   Pure.
 #pragma once
@@ -55,6 +58,7 @@ struct MomentLook {
 //            0.0015 up to 5 dBZ, 0.012 at 20, 0.055 at 35, 0.25 at 45, 1.1 at 50, 4 at 60, 6 at 75,
 //            given at every decibel from `lowest` to 80 dBZ.
 //   VEL      By speed: slow echo is a haze, so that jets and couplets stand out.
+//   AZSH     As VEL, by strength on both sides.
 //   SW, CFP  Rises with the value.
 //   ZDR      Hail and debris are faint, large drops dense.
 //   PHI      One faint haze, because no phase is "more" than another.

@@ -9,6 +9,7 @@
 
 #include "base/printable.h"
 #include "retrieve/derived/read_folds.h"
+#include "retrieve/derived/shear_moments.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -143,10 +144,15 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
                                     const DerivedOptions& options) {
     if (options.dealiasing == Dealiasing::off)
         return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");
-    remove_storm_relative(volume);
+    for (level2::Sweep& sweep : volume.sweeps)
+        std::erase_if(sweep.moments, [](const SweepMoment& kind) {
+            return level2::facts_of(kind.moment).is_derived;
+        });
     auto dealiased = add_dealiased_velocity(volume, options.dealiasing);
     if (!dealiased) return pass_on(dealiased);
     Derived derived{std::move(*dealiased), {}};
+    const auto shear = add_shear_moments(volume, derived.dealiased, wanted);
+    if (!shear) return pass_on(shear);
     if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
     auto notes = add_storm_relative(volume, derived.dealiased, options.motion);
     if (!notes) return pass_on(notes);

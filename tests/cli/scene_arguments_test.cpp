@@ -85,7 +85,7 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
-    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD or SRV"));
+    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD, SRV, AZSH or DIVG"));
 }
 
 // 2026-11-22: `--light shadow` with a composite was ignored without a message.

@@ -125,7 +125,7 @@ TEST_F(ConfigFile, DealiasingIsARungAndDerivedMomentsNeedIt) {
     };
     EXPECT_NE(refused("dealias = \"fast\"\n").find("off, auto, profile, region or anchored"),
               std::string::npos);
-    for (const char* moment : {"VELD", "SRV"}) {
+    for (const char* moment : {"VELD", "SRV", "AZSH"}) {
         EXPECT_NE(refused(fmt::format("dealias = \"off\"\nmoments = [\"REF\", \"{}\"]\n", moment))
                       .find(fmt::format("does not go with the moment {}", moment)),
                   std::string::npos);
@@ -266,7 +266,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
     EXPECT_EQ(
         complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
         "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
-        "CFP VELD SRV");
+        "CFP VELD SRV AZSH DIVG");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),

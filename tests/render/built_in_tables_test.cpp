@@ -1,6 +1,7 @@
 #include "render/color/built_in_tables.h"
 
 #include <set>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,11 +47,15 @@ TEST(BuiltInTables, AreFoundByNameAndAllAreNamedOtherwise) {
 TEST(BuiltInTables, EachMomentHasOneOfItsOwnUnit) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = default_color_table(moment);
-        EXPECT_EQ(table.moment, level2::measured_moment(moment));
+        EXPECT_EQ(table.moment, table_moment(moment));
         EXPECT_EQ(table.unit, unit_of(moment)) << table.name;
     }
     EXPECT_EQ(unit_of(Moment::vel), "m/s");
     EXPECT_EQ(unit_of(Moment::rho), "");
+    for (const auto& [moment, shared] :
+         {std::pair{Moment::ref, Moment::ref}, std::pair{Moment::veld, Moment::vel},
+          std::pair{Moment::srv, Moment::vel}, std::pair{Moment::divg, Moment::azsh}})
+        EXPECT_EQ(table_moment(moment), shared);
 }
 
 TEST(BuiltInTables, HaveTheWeatherServicesColors) {
@@ -71,7 +76,7 @@ TEST(BuiltInTables, HaveTheWeatherServicesColors) {
 TEST(BuiltInTables, EachMomentHasASmoothOne) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = smooth_color_table(moment);
-        EXPECT_EQ(table.moment, level2::measured_moment(moment));
+        EXPECT_EQ(table.unit, unit_of(moment)) << table.name;
         EXPECT_TRUE(table.name.starts_with("smooth-")) << table.name;
         EXPECT_FALSE(is_stepped(table)) << table.name;
     }

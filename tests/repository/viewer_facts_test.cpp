@@ -8,8 +8,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "render/color/built_in_tables.h"
@@ -40,16 +42,29 @@ std::string_view mixing_of(level2::Circle circle) {
     return {};
 }
 
+// Returns the facts of a moment, without those that viewer/src/wire/moments.ts calls usual.
+std::string moment_row(const level2::MomentFacts& facts) {
+    std::vector<std::string> known = {fmt::format("unit: '{}'", facts.units)};
+    const auto add = [&](bool is_unusual, std::string_view name, std::string_view value) {
+        if (is_unusual) known.push_back(fmt::format("{}: {}", name, value));
+    };
+    const auto quoted = [](std::string_view word) { return fmt::format("'{}'", word); };
+    const level2::Moment measured = level2::measured_moment(facts.moment);
+    const level2::Moment tables = render::table_moment(facts.moment);
+    add(facts.circle != level2::Circle::none, "mixing", quoted(mixing_of(facts.circle)));
+    add(facts.is_signed, "isSigned", "true");
+    add(facts.is_doppler, "isDoppler", "true");
+    add(facts.is_derived, "isDerived", "true");
+    add(measured != facts.moment, "measured", quoted(level2::moment_name(measured)));
+    add(tables != facts.moment, "tables", quoted(level2::moment_name(tables)));
+    return fmt::format("    {}: {{ {} }},\n", facts.name, fmt::join(known, ", "));
+}
+
 std::string moments() {
     std::string text = "export const moments = {\n";
     std::string titles = "export const momentTitles = {\n";
     for (const level2::MomentFacts& facts : level2::moment_facts) {
-        text += fmt::format(
-            "    {}: {{\n        unit: '{}',\n        mixing: '{}',\n"
-            "        isSigned: {},\n        isDoppler: {},\n        isDerived: {},\n"
-            "        measured: '{}',\n    }},\n",
-            facts.name, facts.units, mixing_of(facts.circle), facts.is_signed, facts.is_doppler,
-            facts.is_derived, level2::moment_name(level2::measured_moment(facts.moment)));
+        text += moment_row(facts);
         titles += fmt::format("    {}: '{}',\n", facts.name, render::look_of(facts.moment).title);
     }
     return text + "} as const;\n" + titles + "} as const;\n";

@@ -4,78 +4,17 @@
 // Moments in the order of their numbers in packed grids and sweeps, with their stored units ('1' for a number
 // without one), and how cells are mixed between their centers.
 export const moments = {
-    REF: {
-        unit: 'dBZ',
-        mixing: 'mean',
-        isSigned: false,
-        isDoppler: false,
-        isDerived: false,
-        measured: 'REF',
-    },
-    VEL: {
-        unit: 'm/s',
-        mixing: 'heaviest',
-        isSigned: true,
-        isDoppler: true,
-        isDerived: false,
-        measured: 'VEL',
-    },
-    SW: {
-        unit: 'm/s',
-        mixing: 'mean',
-        isSigned: false,
-        isDoppler: true,
-        isDerived: false,
-        measured: 'SW',
-    },
-    ZDR: {
-        unit: 'dB',
-        mixing: 'mean',
-        isSigned: false,
-        isDoppler: false,
-        isDerived: false,
-        measured: 'ZDR',
-    },
-    PHI: {
-        unit: 'degree',
-        mixing: 'circle',
-        isSigned: false,
-        isDoppler: false,
-        isDerived: false,
-        measured: 'PHI',
-    },
-    RHO: {
-        unit: '1',
-        mixing: 'mean',
-        isSigned: false,
-        isDoppler: false,
-        isDerived: false,
-        measured: 'RHO',
-    },
-    CFP: {
-        unit: 'dB',
-        mixing: 'mean',
-        isSigned: false,
-        isDoppler: false,
-        isDerived: false,
-        measured: 'CFP',
-    },
-    VELD: {
-        unit: 'm/s',
-        mixing: 'mean',
-        isSigned: true,
-        isDoppler: true,
-        isDerived: true,
-        measured: 'VEL',
-    },
-    SRV: {
-        unit: 'm/s',
-        mixing: 'mean',
-        isSigned: true,
-        isDoppler: true,
-        isDerived: true,
-        measured: 'VEL',
-    },
+    REF: { unit: 'dBZ' },
+    VEL: { unit: 'm/s', mixing: 'heaviest', isSigned: true, isDoppler: true },
+    SW: { unit: 'm/s', isDoppler: true },
+    ZDR: { unit: 'dB' },
+    PHI: { unit: 'degree', mixing: 'circle' },
+    RHO: { unit: '1' },
+    CFP: { unit: 'dB' },
+    VELD: { unit: 'm/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'VEL' },
+    SRV: { unit: 'm/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'VEL' },
+    AZSH: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL' },
+    DIVG: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'AZSH' },
 } as const;
 export const momentTitles = {
     REF: 'Reflectivity',
@@ -87,6 +26,8 @@ export const momentTitles = {
     CFP: 'Clutter filter power removed',
     VELD: 'Dealiased velocity',
     SRV: 'Storm-relative velocity',
+    AZSH: 'Azimuthal shear',
+    DIVG: 'Radial divergence',
 } as const;
 
 // Units by quantity, the usual one first.

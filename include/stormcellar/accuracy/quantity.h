@@ -17,9 +17,10 @@
 namespace stormcellar::accuracy {
 
 // The unit of a moment's values: decibels for REF, ZDR and CFP, meters per second for VEL and SW,
-// degrees for PHI, a ratio for RHO.
-enum class ValueUnit { db, mps, degree, ratio };
-[[nodiscard]] std::string_view name_of(ValueUnit unit);  // "dB", "m/s", "deg", "ratio"
+// degrees for PHI, a ratio for RHO, thousandths per second for AZSH and DIVG.
+enum class ValueUnit { db, mps, degree, ratio, per_1000_s };
+// Returns "dB", "m/s", "deg", "ratio" or "0.001/s".
+[[nodiscard]] std::string_view name_of(ValueUnit unit);
 
 enum class Quantity { position, value, image };
 inline constexpr std::array all_quantities = {Quantity::position, Quantity::value, Quantity::image};

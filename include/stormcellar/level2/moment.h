@@ -20,7 +20,7 @@
 namespace stormcellar::level2 {
 
 // Grid files hold these numbers, so do not change them; add a new moment at the end.
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv };
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv, azsh, divg };
 
 // The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
@@ -103,6 +103,24 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      "SRV",
      "m/s",
      {"radial velocity, away from the radar, dealiased, relative to a storm"},
+     Circle::none,
+     true,
+     true,
+     3,
+     true},
+    {Moment::azsh,
+     "AZSH",
+     "0.001/s",
+     {"azimuthal shear of the radial velocity, counterclockwise", "", "", "AZSHEAR"},
+     Circle::none,
+     true,
+     true,
+     3,
+     true},
+    {Moment::divg,
+     "DIVG",
+     "0.001/s",
+     {"divergence of the radial velocity along the beam, over the ground", "", "", "DIVERGENCE"},
      Circle::none,
      true,
      true,

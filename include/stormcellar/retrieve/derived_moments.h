@@ -1,5 +1,6 @@
 // stormcellar/retrieve/derived_moments.h -- the moments that come from velocities: VELD, the
-// dealiased velocity, and SRV, the dealiased velocity relative to a storm.
+// dealiased velocity; SRV, the dealiased velocity relative to a storm; AZSH, the azimuthal shear,
+// and DIVG, the radial divergence, of the dealiased velocity.
 //
 // SRV is VELD minus the part of the storm's horizontal motion along the beam,
 //     (u sin a + v cos a) cos e
@@ -7,12 +8,18 @@
 // radar, comes in steps of 0.01 m/s, and keeps the flags of VEL. A gate of SRV is ambiguous where
 // VELD is, and where its velocity would exceed 320 m/s.
 //
+// AZSH and DIVG are the results of sweep_shear() with its usual options (velocity_shear.h). They
+// are in units of 0.001 s^-1 in steps of 1e-5 s^-1, and keep the flags of VEL. A gate with echo is
+// ambiguous where VELD is, where no plane can be fitted, and where the value would exceed 0.32
+// s^-1.
+//
 // Units     As in storm_motion.h. The motion is rounded to whole degrees and to 0.1 m/s before its
 //           use, so that its text gives all of it.
-// Accuracy  Half a step of VELD and half a step of SRV: 0.01 m/s for the given motion
-//           (tests/retrieve/derived_moments_test.cpp). Not covered: an error of the motion itself,
-//           which changes all velocities of a radial alike; the vertical motion of the storm; and
-//           storms of one volume that move differently.
+// Accuracy  Shear: that of sweep_shear(), and half a step (tests/retrieve/shear_moments_test.cpp).
+//           SRV: half a step of VELD and half a step of SRV: 0.01 m/s for the given
+//           motion (tests/retrieve/derived_moments_test.cpp). Not covered: an error of the motion
+//           itself, which changes all velocities of a radial alike; the vertical motion of the
+//           storm; and storms of one volume that move differently.
 // Errors    bad_argument if dealiasing is off; not_found, with the reason, if the volume has no
 //           velocities, or if SRV is wanted and the wind profile gives no motion.
 // Threads   Pure functions.
@@ -60,8 +67,8 @@ struct Derived {
     std::vector<std::string> notes;
 };
 
-// Adds VELD after each velocity moment and, if it is one of the wanted moments, SRV. Replaces these
-// moments if the volume has them. Errors: see above.
+// Adds VELD after each velocity moment, and those of SRV, AZSH and DIVG that are wanted. Replaces
+// these moments if the volume has them. Errors: see above.
 [[nodiscard]] Result<Derived> add_derived_moments(level2::Volume& volume,
                                                   std::span<const level2::Moment> wanted,
                                                   const DerivedOptions& options = {});

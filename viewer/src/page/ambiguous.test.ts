@@ -18,7 +18,7 @@ import { firstVisible, mostVisible } from '../scene/first_visible';
 import { boxOf } from '../scene/grid_box';
 import { fieldAt } from '../scene/solid_hits';
 import { Made, evenLevels, packedGrid, scrambled } from '../testing/written_grid';
-import { derivedOf, measuredOf, momentsInOrder, titleOf } from '../wire/moments';
+import { derivedOf, measuredOf, momentsInOrder, tablesOf, titleOf } from '../wire/moments';
 import { CellState, codeAt, readPackedGrid, stateOf, valueOf } from '../wire/packed_grid';
 import { stateOfGate } from '../wire/packed_sweep';
 import { readColumn } from './column_reading';
@@ -179,11 +179,13 @@ test('the dealiased velocity follows the measured velocity, also if the server h
         [derivedOf('VEL'), derivedOf('REF'), measuredOf('VELD'), measuredOf('ABC')],
         ['VELD', null, 'VEL', 'ABC'],
     );
+    assert.deepEqual(['REF', 'VELD', 'AZSH', 'DIVG', 'ABC'].map(tablesOf), ['REF', 'VEL', 'AZSH', 'AZSH', 'ABC']);
     assert.deepEqual([titleOf('VELD'), titleOf('ABC')], ['Dealiased velocity', 'ABC']);
     const names = (there: string[]) =>
         momentsInOrder(there).map((one) => one.moment + (one.isThere ? '' : ' (not there)'));
     assert.deepEqual(names(['REF', 'VEL', 'SW', 'VELD']), ['REF', 'VEL', 'VELD', 'SW']);
     assert.deepEqual(names(['REF', 'VEL']), ['REF', 'VEL', 'VELD (not there)']);
     assert.deepEqual(names(['REF']), ['REF']);
+    assert.deepEqual(names(['VEL', 'VELD', 'SRV', 'AZSH']), ['VEL', 'VELD', 'SRV', 'AZSH']);
     assert.deepEqual(names(['VELD']), ['VELD']);
 });

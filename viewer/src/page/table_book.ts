@@ -1,5 +1,5 @@
-// Keeps the color tables of the page: tables of the server, and the user's drafts. A derived moment has the tables and
-// the draft of its measured moment.
+// Keeps the color tables of the page: tables of the server, and the user's drafts. Moments such as VEL
+// and VELD share tables and draft.
 
 import { colorFiles } from '../facts';
 import { ViewState } from '../scene/view_state';
@@ -7,7 +7,7 @@ import { ColorTable } from '../wire/color_tables';
 import { Draft, draftOf, tableOf } from '../tables/draft';
 import { UsualOpacity, usualOpacity } from '../tables/usual_opacity';
 import { Tables } from '../wire/api';
-import { measuredOf } from '../wire/moments';
+import { tablesOf } from '../wire/moments';
 import { texts } from './texts';
 
 // The names of the server's tables for people with any kind of color vision begin with this
@@ -26,7 +26,7 @@ export class TableBook {
 
     // Returns the tables of a moment, except tables of products in another unit.
     presets(moment: string): ColorTable[] {
-        const own = this.tables.tables.filter((table) => table.moment === measuredOf(moment));
+        const own = this.tables.tables.filter((table) => table.moment === tablesOf(moment));
         const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
         return own.filter((table) => table.unit === unit);
     }
@@ -41,7 +41,7 @@ export class TableBook {
 
     // Returns the table of a moment in a view. The same draft always gives the same object.
     of(state: ViewState, moment: string): ColorTable | undefined {
-        const draft = state.drafts.find((one) => one.moment === measuredOf(moment));
+        const draft = state.drafts.find((one) => one.moment === tablesOf(moment));
         if (!draft) return this.preset(moment, state.colors);
         const made = this.made.get(draft) ?? tableOf(draft, this.usual);
         this.made.set(draft, made);
@@ -49,8 +49,8 @@ export class TableBook {
     }
     // Returns the draft of a moment, or a draft made of its table.
     draftOf(state: ViewState, moment: string): Draft | undefined {
-        const draft = state.drafts.find((one) => one.moment === measuredOf(moment));
+        const draft = state.drafts.find((one) => one.moment === tablesOf(moment));
         const preset = this.preset(moment, state.colors);
-        return draft ?? (preset && { ...draftOf(preset, measuredOf(moment), this.usual), name: `my-${preset.name}` });
+        return draft ?? (preset && { ...draftOf(preset, tablesOf(moment), this.usual), name: `my-${preset.name}` });
     }
 }

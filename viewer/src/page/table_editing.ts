@@ -3,7 +3,7 @@
 import { Draft, fileOf } from '../tables/draft';
 import { History } from '../tables/history';
 import { writeToml } from '../tables/toml_writer';
-import { measuredOf } from '../wire/moments';
+import { tablesOf } from '../wire/moments';
 import { App } from './app';
 
 interface Colors {
@@ -33,7 +33,7 @@ export class TableEditing {
 
     // Returns the moment whose tables the chosen moment has.
     private get moment(): string {
-        return measuredOf(this.app.state.moment);
+        return tablesOf(this.app.state.moment);
     }
     // Returns the draft of the chosen moment, or a draft made of its table.
     get draft(): Draft | undefined {

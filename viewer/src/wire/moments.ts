@@ -9,7 +9,14 @@ export interface MomentFacts {
     isDoppler: boolean;
     isDerived: boolean; // no radar sends the moment; cells and gates may be ambiguous
     measured: string; // the moment from which a derived moment comes, or the moment itself
+    tables: string; // the moment whose tables of colors the moment has
 }
+
+// Facts of most moments. Table `moments` has those of a moment that differ.
+const usual = { mixing: 'mean', isSigned: false, isDoppler: false, isDerived: false };
+const facts = Object.fromEntries(
+    Object.entries(moments).map(([name, own]) => [name, { ...usual, measured: name, tables: name, ...own }]),
+) as Record<keyof typeof moments, MomentFacts>;
 
 export const isMoment = (name: string): name is keyof typeof moments =>
     Object.prototype.hasOwnProperty.call(moments, name);
@@ -17,31 +24,34 @@ export const isMoment = (name: string): name is keyof typeof moments =>
 // Returns the facts of a moment. Throws an Error for an unknown name.
 export function momentFacts(name: string): MomentFacts {
     if (!isMoment(name)) throw new Error(`${name}: no such moment`);
-    return moments[name];
+    return facts[name];
 }
 
 // Returns true if the moment with a number in packed grids and sweeps is derived. Moments that the page does not know
 // are not.
-export const isDerivedNumber = (number: number): boolean => Object.values(moments)[number]?.isDerived ?? false;
+export const isDerivedNumber = (number: number): boolean => Object.values(facts)[number]?.isDerived ?? false;
 
-// Returns the measured moment from which a moment comes. The two share tables of colors.
-export const measuredOf = (name: string): string => (isMoment(name) ? moments[name].measured : name);
+// Returns the measured moment from which a moment comes.
+export const measuredOf = (name: string): string => (isMoment(name) ? facts[name].measured : name);
 
-// Returns the moment that is derived from a measured moment; null if there is none.
+// Returns the moment whose tables of colors a moment has, as VELD has those of VEL.
+export const tablesOf = (name: string): string => (isMoment(name) ? facts[name].tables : name);
+
+// Returns the moment that shows the values of a measured moment dealiased; null if there is none.
 export function derivedOf(name: string): string | null {
-    const found = Object.entries(moments).find(([, { isDerived, measured }]) => isDerived && measured === name);
+    const found = Object.entries(facts).find(([, { isDerived, measured }]) => isDerived && measured === name);
     return found ? found[0] : null;
 }
 
 // Returns the title of a moment, or the name of a moment that the page does not know.
 export const titleOf = (name: string): string => (isMoment(name) ? momentTitles[name] : name);
 
-// Returns the moments in the order of their buttons: a derived moment follows its measured moment, even if the server
-// has no grids of it.
+// Returns the moments in the order of their buttons: VELD follows VEL, even if the server has no grids of VELD.
 export function momentsInOrder(there: string[]): { moment: string; isThere: boolean }[] {
-    const isAlone = (moment: string) => !there.includes(measuredOf(moment));
+    const followsOther = (moment: string) =>
+        derivedOf(measuredOf(moment)) === moment && there.includes(measuredOf(moment));
     return there
-        .filter((moment) => measuredOf(moment) === moment || isAlone(moment))
+        .filter((moment) => !followsOther(moment))
         .flatMap((moment) => [moment, derivedOf(moment)])
         .filter((moment): moment is string => moment !== null)
         .map((moment) => ({ moment, isThere: there.includes(moment) }));

@@ -101,7 +101,7 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
 }
 
 // Returns the volume as volume_of() does, but with velocities alone, and the moments that come from
-// them. SRV is there only if it is the wanted moment.
+// them. VELD is always there, another only if it is the wanted moment.
 Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const FoundVolume& found,
                                                     level2::Moment wanted) {
     const std::string key = fmt::format("{}/{}", found.key, level2::moment_name(wanted));
@@ -147,8 +147,8 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
         };
         add(gates.moment, gates.word_size_bits);
         if (gates.moment != level2::Moment::vel) continue;
-        add(level2::Moment::veld, 16);
-        add(level2::Moment::srv, 16);
+        for (const level2::MomentFacts& facts : level2::moment_facts)
+            if (facts.is_derived) add(facts.moment, 16);
     }
     ApiJson json{{"sweep", number},
                  {"elevation_number", sweep.elevation_number},

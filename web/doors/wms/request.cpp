@@ -201,7 +201,8 @@ std::vector<std::string> wms_styles_of(const MapProduct& layer) {
         names.insert(names.end(), render::color_families.begin(), render::color_families.end());
     const std::string unit = render::unit_shown(scene);
     for (const render::ColorTable& table : render::built_in_tables())
-        if (table.moment == layer.moment && table.unit == unit) names.push_back(table.name);
+        if (table.moment == render::table_moment(layer.moment) && table.unit == unit)
+            names.push_back(table.name);
     return names;
 }
 

@@ -2,7 +2,7 @@
 
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
-import { isMoment, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
+import { derivedOf, isMoment, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
 import { echoLayers, sweepMoment } from '../../scene/layers';
 import { App } from '../app';
 import { button, element, make, press, putOptions } from '../dom';
@@ -19,8 +19,8 @@ function putChoices(app: App): void {
     );
     element('moments').replaceChildren(
         ...momentsInOrder((domain?.moments ?? []).map(({ moment }) => moment)).map(({ moment, isThere }) => {
-            const isDerived = isMoment(moment) && momentFacts(moment).isDerived;
-            const choice = button(`moment-${moment}`, isDerived ? texts.dealiased : moment, () =>
+            const isDealiased = moment === derivedOf(measuredOf(moment));
+            const choice = button(`moment-${moment}`, isDealiased ? texts.dealiased : moment, () =>
                 isThere ? void app.choose(state.domain, moment) : app.say(texts.noDealiased(titleOf(moment))),
             );
             choice.title = isThere ? titleOf(moment) : texts.noDealiased(titleOf(moment));

@@ -4,7 +4,7 @@ import { Draft, draftOf, tableForPal } from '../../tables/draft';
 import { readPal, writePal } from '../../tables/pal_file';
 import { TableError, mostFileBytes, tableOfFile } from '../../tables/table_file';
 import { readToml } from '../../tables/toml_file';
-import { measuredOf } from '../../wire/moments';
+import { tablesOf } from '../../wire/moments';
 import { App } from '../app';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { editorTexts } from '../texts';
@@ -16,7 +16,7 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
     if (text.length > mostFileBytes) throw new TableError(editorTexts.tooLarge(fileName));
     const table =
         ending === 'pal' ? readPal(text, fileName, book.usual) : tableOfFile(readToml(text, fileName), book.usual);
-    const moment = measuredOf(table.moment || state.moment);
+    const moment = tablesOf(table.moment || state.moment);
     const unit = book.preset(moment, '')?.unit ?? table.unit;
     if (table.unit && table.unit !== unit) throw new TableError(editorTexts.otherUnit(fileName, table.unit, unit));
     const draft = {
@@ -26,7 +26,7 @@ export function draftFrom({ state, book }: App, text: string, fileName: string):
     return {
         draft,
         said:
-            moment === measuredOf(state.moment)
+            moment === tablesOf(state.moment)
                 ? editorTexts.taken(fileName, draft.colors.length)
                 : editorTexts.otherMoment(fileName, moment),
     };
