@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "render/map/beam_glyphs.h"
 #include "render/map/draw_marks.h"
 #include "render/map/map_ground.h"
 #include "render/map/map_layer.h"
@@ -126,7 +127,9 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
                    .scale = size.scale,
                    .shades = &shades_of(scene.theme)};
     GroundLook look{lines.shades, nullptr, size.scale};
+    const bool has_glyphs = scene.glyphs && drawn.view.sweep != nullptr;
     if (fonts != nullptr) {
+        if (has_glyphs) lines.glyph_key = size_of_glyph_key(*fonts, scene.units, size.scale);
         const auto map = cache.map.get(spec, geometry, size.scale, threads);
         if (!map) return pass_on(map);
         lines.map = *map;
@@ -144,7 +147,11 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
         if (fonts == nullptr) return picture;
         canvas.place(picture, 0, 0);
     }
-    if (fonts != nullptr) draw_marks(canvas, *fonts, lines, plan_marks(*fonts, lines));
+    const MapMarks marks = fonts != nullptr ? plan_marks(*fonts, lines) : MapMarks{};
+    if (has_glyphs)
+        draw_beam_glyphs(canvas, plan_beam_glyphs(*drawn.view.sweep, lines, marks), lines);
+    if (fonts != nullptr) draw_marks(canvas, *fonts, lines, marks);
+    if (marks.glyph_key) draw_glyph_key(canvas, *fonts, lines, *marks.glyph_key);
     return canvas.image();
 }
 

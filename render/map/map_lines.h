@@ -29,6 +29,7 @@ struct MapLines {
     const MapLayer* map = nullptr;  // its cities are marked; null: no cities
     double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
     Units units;                    // units of written numbers
+    Point glyph_key = {};           // width and height of the key of beam glyphs; 0: no key
     bool heights = false;           // a scale of heights at the left edge of the box
     double scale = 1;               // of lines and text
     const Shades* shades = &shades::dark;

@@ -42,6 +42,8 @@ class Planner {
         for (const auto& site : *lines_.sites)
             plan_site_mark(site);
         plan_corner();
+        if (lines_.glyph_key.x > 0) plan_glyph_key();
+        drop_covered_sites();
         for (std::size_t i = 0; i < marks_.sites.size(); ++i)
             plan_site_name(marks_.sites[i], names_[i]);
         if (lines_.heights) plan_heights();
@@ -118,10 +120,34 @@ class Planner {
             if (fits) places_.take(box);
             if (!fits) marks_.scale_bar.reset();
         }
+    }
+
+    // Puts the key into the first free corner, or else into the first that the arrow leaves.
+    void plan_glyph_key() {
+        const double w = lines_.glyph_key.x;
+        const double h = lines_.glyph_key.y;
+        const double right = geometry_.width() - scaled(7) - w;
+        const double bottom = geometry_.height() - scaled(7) - h;
+        const std::array<Rect, 4> corners = {
+            Rect{right, bottom, w, h}, Rect{scaled(7), scaled(7), w, h},
+            Rect{right, scaled(7), w, h}, Rect{scaled(7), bottom, w, h}};
+        const auto* corner =
+            std::ranges::find_if(corners, [&](const Rect& box) { return places_.is_free(box); });
+        if (corner == corners.end()) {
+            corner = std::ranges::find_if(
+                corners, [&](const Rect& box) { return !overlaps(box, marks_.north); });
+        }
+        if (corner == corners.end()) return;
+        marks_.glyph_key = *corner;
+        places_.take(*corner);
+    }
+
+    void drop_covered_sites() {
         for (std::size_t i = marks_.sites.size(); i-- > 0;) {
             const Rect mark = about(marks_.sites[i], scaled(4));
             const bool covered = overlaps(mark, marks_.north) ||
-                                 (marks_.scale_bar && overlaps(mark, marks_.scale_bar->box));
+                                 (marks_.scale_bar && overlaps(mark, marks_.scale_bar->box)) ||
+                                 (marks_.glyph_key && overlaps(mark, *marks_.glyph_key));
             if (!covered) continue;
             marks_.sites.erase(marks_.sites.begin() + static_cast<std::ptrdiff_t>(i));
             names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(i));

@@ -2,8 +2,8 @@
 // heights, north and a scale bar.
 //
 // Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
-// scale bar take a corner, the lower left corner unless a site is there. Then come the names of
-// sites, heights, distances, and cities, the largest first. If every corner has a site, the arrow
+// scale bar take a corner, the lower left corner unless a site is there, and the key of beam glyphs
+// another corner. Then come the names of sites, heights, distances, and cities, the largest first. If every corner has a site, the arrow
 // and the bar hide the site at the lower left. A name without room is left out; then the mark of a
 // site is still drawn, but the mark of a city is not. Everything is inside the picture, and plans
 // are in pixels of the picture.
@@ -56,6 +56,7 @@ struct MapMarks {
     std::optional<HeightScale> heights;
     Rect north;
     std::optional<ScaleBar> scale_bar;
+    std::optional<Rect> glyph_key = {};  // render/map/beam_glyphs.h
 };
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);

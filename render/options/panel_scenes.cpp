@@ -51,6 +51,7 @@ Result<std::vector<PanelScene>> panel_scenes(
     std::vector<PanelScene> panels;
     for (const level2::Moment moment : *moments) {
         panel.moment = level2::moment_name(moment);
+        panel.scene.glyphs = options.scene.glyphs && has_beam_glyphs(moment);
         auto scene = scene_of_panel(panel);
         if (!scene) return pass_on(scene);
         panels.push_back({scene->moment, std::move(*scene)});

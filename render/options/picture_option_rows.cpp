@@ -84,6 +84,13 @@ constexpr std::array option_rows{
                   .used_by = by_maps,
                   .help = "How the values of a map go from cell to cell, for the eye alone: {}, "
                           "which shows the cells as they are. Default: cubic"},
+    PictureOption{.option = "--glyphs",
+                  .section = "picture",
+                  .key = "glyphs",
+                  .value = FlagValue{.field = [](To to) { return &to.scene.glyphs; }},
+                  .used_by = by_ppi,
+                  .help = "Draw glyphs of the wind over a velocity: a line for the part along the "
+                          "beam, a disc for the part that one radar cannot measure"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",

@@ -63,6 +63,12 @@ Status check_colors(const Scene& scene) {
                 wanted.empty() ? "without a unit" : "in " + wanted);
 }
 
+Status check_glyphs(const Scene& scene) {
+    if (!scene.glyphs || has_beam_glyphs(scene.moment)) return {};
+    return fail(ErrorCode::bad_argument, "beam glyphs show velocities (VEL, VELD or SRV), not {}",
+                level2::moment_name(scene.moment));
+}
+
 Status check_look_at(const Camera& camera) {
     if (!camera.eye || !camera.look_at) return {};
     const double apart_m =
@@ -73,6 +79,11 @@ Status check_look_at(const Camera& camera) {
 }
 
 }  // namespace
+
+bool has_beam_glyphs(level2::Moment moment) {
+    const level2::MomentFacts& facts = level2::facts_of(moment);
+    return facts.is_signed && facts.units == "m/s";
+}
 
 Status validate(const Scene& scene) {
     const Camera& camera = scene.camera;
@@ -90,7 +101,7 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const Eye look_at = camera.look_at.value_or(Eye{});
-    const std::array<Status, 24> checks = {
+    const std::array<Status, 25> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -125,6 +136,7 @@ Status validate(const Scene& scene) {
             ? Status{}
             : check_range("the number of a sweep", scene.sweep_number, limits::sweep_number),
         check_section(scene),
+        check_glyphs(scene),
         check_colors(scene),
     };
     for (const Status& check : checks) {

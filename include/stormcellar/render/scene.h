@@ -97,6 +97,7 @@ struct Scene {
     Light light;                 // off by default
     bool haze = false;           // volumes: air that was not seen is drawn as a veil
     bool smooth = false;         // maps: values go smoothly from cell to cell
+    bool glyphs = false;         // a ppi of a velocity: glyphs of the wind along the beam
     double opacity = 1;          // scales the transfer function's opacity; 0.001..1000
     // Spacing of range rings: 1 to 1000 km, or usual_rings, which lets the size of the grid choose
     // the spacing.
@@ -106,6 +107,8 @@ struct Scene {
     Theme theme = Theme::dark;
     Units units;  // units of written numbers
 };
+// Returns true for a moment that is a velocity along the beam: VEL, VELD, SRV.
+[[nodiscard]] bool has_beam_glyphs(level2::Moment moment);
 // Checks a scene. Returns bad_argument and names the first member that is outside its range. NaN is
 // outside every range.
 [[nodiscard]] Status validate(const Scene& scene);
