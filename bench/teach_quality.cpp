@@ -14,6 +14,7 @@
 //   kept_pct      share of these with at least 0.5 (98 is asked for)
 //   weak_pct      the same share of the weather below 20 dBZ
 //   between_pct   the same share of gates with a correlation between
+//   dense_pct     the same share of those of at least 35 dBZ, such as hail and melting snow
 //   ms            CPU time of the rule for the volume
 // and then, for ranges of the probability, the share of the gates (other and weather alone) that
 // are weather. With --teach, prints instead the text of retrieve/quality/taught_rules.cpp.
@@ -95,12 +96,12 @@ void for_each_judged_sweep(const level2::Volume& volume, Visit visit) {
     }
 }
 
-enum class Truth : std::uint8_t { none, other, between, weak, strong };
+enum class Truth : std::uint8_t { none, other, between, dense, weak, strong };
 
 Truth truth_of(float reflectivity, float correlation) {
     if (std::isnan(reflectivity) || std::isnan(correlation)) return Truth::none;
     if (correlation < 0.8F) return Truth::other;
-    if (correlation < 0.95F) return Truth::between;
+    if (correlation < 0.95F) return reflectivity >= 35 ? Truth::dense : Truth::between;
     if (reflectivity >= 20) return Truth::strong;
     // Noise makes the correlation of weak echo wrong, and often larger than 1.
     return correlation <= 1 ? Truth::weak : Truth::none;
@@ -146,7 +147,7 @@ std::vector<Lesson> lessons_of(const level2::Volume& volume, QualityRule rule) {
 }
 
 struct Score {
-    std::array<std::int64_t, 5> gates{}, kept{};  // by Truth
+    std::array<std::int64_t, 6> gates{}, kept{};  // by Truth
     std::array<std::int64_t, 10> in_range{}, weather_in_range{};
     double ms = 0;
 
@@ -186,7 +187,7 @@ Score score_of(const level2::Volume& volume, QualityRule rule) {
             const auto i = static_cast<std::size_t>(truth);
             ++score.gates[i];
             score.kept[i] += probability >= 0.5F ? 1 : 0;
-            if (truth == Truth::between) continue;
+            if (truth == Truth::between || truth == Truth::dense) continue;
             const auto range = std::min<std::size_t>(9, static_cast<std::size_t>(probability * 10));
             ++score.in_range[range];
             score.weather_in_range[range] += truth != Truth::other ? 1 : 0;
@@ -204,6 +205,7 @@ Row row_of(QualityRule rule, const std::string& volume, const Score& score) {
             {"kept_pct", Cell(score.kept_pct(Truth::strong), 2)},
             {"weak_pct", Cell(score.kept_pct(Truth::weak), 1)},
             {"between_pct", Cell(score.kept_pct(Truth::between), 1)},
+            {"dense_pct", Cell(score.kept_pct(Truth::dense), 1)},
             {"ms", Cell(score.ms, 0)}};
 }
 

@@ -95,7 +95,7 @@ Result<MadeGrid> grid_by_plan(FileScene& scene, const GridRequest& request, cons
         source.volume, source.site, scene.spec,
         {of.moment, 0, of.effects.profile, request.threads, request.frame_time});
     if (!measured) return pass_on(measured);
-    const bool is_dealiased = scene.dealiasing && level2::facts_of(of.moment).is_derived;
+    const bool is_dealiased = scene.dealiasing && level2::is_dealiased(of.moment);
     const auto budget =
         is_dealiased ? budget_beside(*scene.dealiasing, of.effects.budget) : of.effects.budget;
     auto planned = grid::plan_grid(*measured, of.effects.chain, budget);
@@ -130,7 +130,7 @@ bool is_gridded(const GridRequest& request, level2::Moment moment,
 GridRequest planning_dealiasing(GridRequest request, const std::vector<MomentRequest>& moments,
                                 std::optional<accuracy::Plan>& plan) {
     const auto planned = std::ranges::find_if(moments, [](const MomentRequest& of) {
-        return level2::facts_of(of.moment).is_derived && of.effects.needs_plan();
+        return level2::is_dealiased(of.moment) && of.effects.needs_plan();
     });
     if (planned == moments.end()) return request;
     request.plan_dealiasing = [&plan, asked = request.derived.dealiasing,

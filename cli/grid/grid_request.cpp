@@ -182,8 +182,7 @@ Status choose_dealiasing(const GridOptions& options, GridRequest& request,
     if (options.dealias.empty()) return {};
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "--dealias {}", rung.error().message);
-    const auto derived = std::ranges::find_if(
-        moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    const auto derived = std::ranges::find_if(moments, level2::is_dealiased);
     const bool has_derived = derived != moments.end();
     if (*rung == retrieve::Dealiasing::off) {
         if (!has_derived || request.any_moment) return {};
@@ -200,6 +199,13 @@ Status choose_dealiasing(const GridOptions& options, GridRequest& request,
     if (!has(level2::Moment::veld))
         std::ranges::replace(moments, level2::Moment::vel, level2::Moment::veld);
     std::ranges::sort(moments);
+    return {};
+}
+
+Status choose_quality(const GridOptions& options, GridRequest& request) {
+    const bool is_share = options.quality >= 0 && options.quality <= 1;
+    if (!is_share) return fail(ErrorCode::bad_argument, "--quality must be from 0 to 1");
+    request.derived.quality = options.quality;
     return {};
 }
 
@@ -238,6 +244,7 @@ Status parse_moments(const GridOptions& options, GridRequest& request) {
         moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
     }
     if (Status chosen = choose_dealiasing(options, request, moments); !chosen) return chosen;
+    if (Status chosen = choose_quality(options, request); !chosen) return chosen;
     if (Status chosen = choose_motion(options, request, moments); !chosen) return chosen;
     request.moment = moments.front();
     request.more_moments.assign(moments.begin() + 1, moments.end());
@@ -482,6 +489,9 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                    fmt::format("The motion to which the storm-relative velocity, SRV, refers: {}",
                                retrieve::motion_choices()))
         ->default_str(std::string(retrieve::automatic_motion));
+    app.add_option("--quality", options.quality,
+                   "Leave out echo whose probability of weather is less than this, from 0 to 1. "
+                   "0.5 leaves out most birds, insects and ground. Default: 0, which keeps all");
     app.add_option("--threads", options.threads,
                    options.threads == 0
                        ? std::string{"Number of threads. Default: all processors"}

@@ -35,6 +35,7 @@ struct GridOptions {
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string dealias;         // empty: not typed
     std::string storm_motion;    // empty: not typed
+    double quality = 0;          // least probability of weather; 0: all echo
     bool takes_moments = false;  // --moment may name several moments, or "all"
     std::string time, fields;
     SiteOptions site;
@@ -72,10 +73,10 @@ struct GridRequest {
     retrieve::DerivedOptions derived;          // for moments that are derived
     // Plans the rung of dealiasing for a volume; null: as in `derived`.
     std::function<Result<retrieve::Dealiasing>(const level2::Volume&)> plan_dealiasing;
-    bool any_moment = false;                   // --moment all: leave out moments that no volume has
-    std::optional<UtcTime> frame_time;         // selects the sweeps nearest to this time
-    grid::DetailSet details;                   // with one file: the details to keep for each cell
-    bool site_counts = false;                  // with several files: count the sites of each cell
+    bool any_moment = false;            // --moment all: leave out moments that no volume has
+    std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time
+    grid::DetailSet details;            // with one file: the details to keep for each cell
+    bool site_counts = false;           // with several files: count the sites of each cell
     bool site_weights = false;
     SiteRequest site;  // applies to every file
     // Number in a single file, from 1; 0: the first volume, or the newest if it is chunks.

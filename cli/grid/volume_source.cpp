@@ -39,10 +39,9 @@ grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cu
         .place = [&request](level2::Volume& volume) { return apply_site(request.site, volume); },
         .how_to_place = how_to_place,
         .threads = request.threads};
-    if (std::ranges::any_of(wish.moments, [](level2::Moment moment) {
-            return level2::facts_of(moment).is_derived;
-        })) {
-        wish.choose_cuts = {};  // dealiasing a cut uses all cuts
+    if (retrieve::must_derive(wish.moments, request.derived)) {
+        wish.choose_cuts = {};  // all cuts help to dealias and to judge one
+        wish.needs_all_moments = request.derived.quality > 0;
         wish.derive = [&request](level2::Volume& volume) { return add_derived(request, volume); };
     }
     return wish;

@@ -64,6 +64,7 @@ void take_moment(const render::SceneOptions& scene, GridOptions& grid) {
     grid.dealias = is_off ? "" : scene.dealias;
     const bool is_automatic = scene.storm_motion == retrieve::automatic_motion;
     grid.storm_motion = is_automatic ? "" : scene.storm_motion;
+    grid.quality = scene.quality;
 }
 
 Result<PictureGrid> PictureGrid::make(GridOptions options) {

@@ -18,9 +18,7 @@ std::vector<PictureGrid> nothing_matched(const cache::StoreReader& store, const 
 
 // Removes the options of derived moments that none of these moments uses.
 void keep_used(GridOptions& options, const std::vector<level2::Moment>& moments) {
-    const bool has_derived = std::ranges::any_of(
-        moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
-    if (!has_derived) options.dealias.clear();
+    if (std::ranges::none_of(moments, level2::is_dealiased)) options.dealias.clear();
     const bool has_srv = std::ranges::find(moments, level2::Moment::srv) != moments.end();
     if (!has_srv) options.storm_motion.clear();
 }

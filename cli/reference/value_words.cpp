@@ -148,6 +148,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--moment", "MOMENT", Kept::nowhere, offered::moments},
     {"--dealias", "RUNG", Kept::nowhere, offered::dealiasings},
     {"--storm-motion", "MOTION", Kept::nowhere, offered::motions},
+    {"--quality", "P"},
     {"--colors", "TABLE", Kept::files, offered::colors},
     {"--projection", "PROJECTION", Kept::nowhere, offered::projections},
     {"--overlap", "RULE", Kept::nowhere, offered::overlaps},

@@ -170,8 +170,7 @@ void read_dealiasing(TomlTable& ingest, GridConfig& config) {
     if (!name) return;
     const auto rung = retrieve::dealiasing_from_name(*name);
     if (!rung) return ingest.complain("dealias", rung.error().message);
-    const auto derived = std::ranges::find_if(
-        config.moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    const auto derived = std::ranges::find_if(config.moments, level2::is_dealiased);
     if (*rung == retrieve::Dealiasing::off && derived != config.moments.end())
         return ingest.complain("dealias", fmt::format("\"off\" does not go with the moment {}, "
                                                       "which is dealiased",

@@ -38,6 +38,7 @@ constexpr auto moment_rules = std::to_array<MomentRules>({
      ValueUnit::per_1000_s,
      false,
      "each measures along its own beams"},
+    {Moment::pow, {1, -0.004F, 0.004F, true}, ValueUnit::ratio},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 

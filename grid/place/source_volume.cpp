@@ -33,7 +33,9 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     options.selection.elevation_numbers = choose_cuts(metadata->volume);
     if (options.selection.all_cuts()) return std::nullopt;
     auto decoded = level2::decode(bytes, options);
-    if (!decoded || !holds_any(decoded->volume, options.selection.moments)) return std::nullopt;
+    if (!decoded) return std::nullopt;
+    const std::vector<level2::Moment>& wanted = options.selection.moments;
+    if (!wanted.empty() && !holds_any(decoded->volume, wanted)) return std::nullopt;
     // The other volumes of the file may have other patterns.
     if (!decoded->report.further_volume_starts.empty()) return std::nullopt;
     return std::move(*decoded);
@@ -72,7 +74,7 @@ Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wi
 level2::DecodeOptions decode_options_of(const SourceWish& wish, const std::string& file_name) {
     level2::DecodeOptions options;
     options.threads = wish.threads;
-    options.selection.moments = wish.moments;
+    if (!wish.needs_all_moments) options.selection.moments = wish.moments;
     options.fallback_station = station_in_name(file_name);
     return options;
 }

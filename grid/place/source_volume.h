@@ -38,6 +38,7 @@ using ChooseCuts = std::function<std::vector<int>(const level2::Volume&)>;
 struct SourceWish {
     std::vector<level2::Moment> moments;  // the volume must hold one of these
     ChooseCuts choose_cuts = {};
+    bool needs_all_moments = false;  // `derive` uses more than `moments`
     // Gives the volume a name or a position that the file lacks.
     std::function<Status(level2::Volume&)> place = {};
     // Adds derived moments, and returns notes about them. Called after `place`.

@@ -116,6 +116,11 @@ constexpr Anchor rho_anchors[] = {
     {0.95F, 0x7ACB5E}, {0.98F, 0xEBDD48}, {1, 0xFFF3C0},    {1.05F, 0xFFFCF0},
 };
 
+constexpr Anchor quality_anchors[] = {
+    {0, 0x3F2A4A},     {0.25F, 0x5F3B62}, {0.45F, 0x80566A},
+    {0.55F, 0x7E8F70}, {0.75F, 0x8CC08A}, {1, 0xE4F6DA},
+};
+
 constexpr Anchor phi_anchors[] = {
     {0, 0x3B2F7E},   {60, 0x2F7FD0},  {120, 0x4FBDBD}, {180, 0xEEF7CC},
     {240, 0xF0A83A}, {300, 0xB23A2E}, {360, 0x3B2F7E},
@@ -141,6 +146,7 @@ constexpr std::array smooth_tables{
     SmoothTable{"smooth-rho", Moment::rho, rho_anchors, 1.06F},
     SmoothTable{"smooth-cfp", Moment::cfp, cfp_anchors, 60},
     SmoothTable{"smooth-shear", Moment::azsh, shear_anchors, 41, -40.0F},
+    SmoothTable{"smooth-quality", Moment::pow, quality_anchors, 1.01F},
     SmoothTable{"smooth-clear-air", Moment::ref, clear_air_anchors, 55},
 };
 
@@ -221,6 +227,9 @@ std::vector<ExtinctionPoint> phi_extinction(float /*lowest*/) {
 std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
     return {{0, 0.06}, {0.85F, 0.06}, {0.97F, 0.02}};
 }
+std::vector<ExtinctionPoint> quality_extinction(float /*lowest*/) {
+    return {{0, 0.02}, {0.5F, 0.04}, {1, 0.06}};
+}
 std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
     return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
 }
@@ -240,6 +249,7 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
      velocity_extinction},
     {Moment::azsh, "Azimuthal shear", "smooth-shear", "smooth-shear", shear_extinction},
     {Moment::divg, "Radial divergence", "smooth-shear", "smooth-shear", shear_extinction},
+    {Moment::pow, "Probability of weather", "smooth-quality", "smooth-quality", quality_extinction},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 

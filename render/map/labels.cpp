@@ -175,9 +175,11 @@ std::string duration_text(std::chrono::seconds duration) {
 }
 
 std::string product_line(const Scene& scene, const FrameFacts& facts) {
-    if (!facts.storm_motion || scene.moment != level2::Moment::srv) return product_title(scene);
-    return fmt::format("{}, {}", product_title(scene),
-                       motion_text(*facts.storm_motion, scene.units));
+    std::string line = product_title(scene);
+    if (facts.storm_motion && scene.moment == level2::Moment::srv)
+        line += ", " + motion_text(*facts.storm_motion, scene.units);
+    if (!facts.quality.empty()) line += ", " + facts.quality;
+    return line;
 }
 
 HeaderTexts header_of(const FrameFacts& facts, const std::string& product) {

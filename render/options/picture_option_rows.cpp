@@ -63,6 +63,14 @@ constexpr std::array option_rows{
                                      .check = check_motion,
                                      .known = known_motions},
                   .help = "The motion to which the storm-relative velocity, SRV, refers: {}"},
+    PictureOption{.option = "--quality",
+                  .section = "picture",
+                  .key = "quality",
+                  .value = NumberValue{.field = [](To to) { return &to.options.quality; },
+                                       .range = {0, 1},
+                                       .checked = Checked::by_the_parser},
+                  .help = "Leave out echo whose probability of weather is less than this, {} to "
+                          "{}. 0.5 leaves out most birds, insects and ground"},
     PictureOption{.option = "--colors",
                   .old_option = "--colours",
                   .section = "picture",
@@ -381,6 +389,9 @@ const PictureOption& moment_option() {
 }
 const PictureOption& dealias_option() {
     return row_of("dealias");
+}
+const PictureOption& quality_option() {
+    return row_of("quality");
 }
 const PictureOption& storm_motion_option() {
     return row_of("storm_motion");

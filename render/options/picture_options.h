@@ -124,6 +124,7 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& section_option();
 [[nodiscard]] const PictureOption& moment_option();
 [[nodiscard]] const PictureOption& dealias_option();
+[[nodiscard]] const PictureOption& quality_option();
 [[nodiscard]] const PictureOption& storm_motion_option();
 [[nodiscard]] const PictureOption& colors_option();
 [[nodiscard]] const PictureOption& width_option();

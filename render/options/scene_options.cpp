@@ -86,7 +86,7 @@ Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOption
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "{}", rung.error().message);
     const bool is_velocity = level2::measured_moment(moment) == level2::Moment::vel;
-    const bool is_derived = level2::facts_of(moment).is_derived;
+    const bool is_derived = level2::is_dealiased(moment);
     if (*rung == retrieve::Dealiasing::off) {
         const bool is_given = contains(options.typed, dealias_option()) ||
                               contains(options.in_file, dealias_option());
@@ -175,6 +175,12 @@ Status check_stored_derivation(const SceneOptions& options, Product product) {
                     "and auto draws them",
                     spelled(dealias_option(), options), options.dealias);
     }
+    if (options.quality > 0) {
+        return fail(ErrorCode::bad_argument,
+                    "{} is for frames of files and for a ppi; kept grids have all echo, or what "
+                    "the service left of it",
+                    spelled(quality_option(), options));
+    }
     if (options.storm_motion == retrieve::automatic_motion) return {};
     return fail(ErrorCode::bad_argument,
                 "{} is for frames of files and for a ppi; kept grids have the motion of their own "
@@ -187,6 +193,7 @@ retrieve::DerivedOptions derived_options_of(const SceneOptions& options) {
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (rung && *rung != retrieve::Dealiasing::off) derived.dealiasing = *rung;
     derived.motion = retrieve::motion_choice_from(options.storm_motion).value_or(derived.motion);
+    derived.quality = options.quality;
     return derived;
 }
 
@@ -203,6 +210,7 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
     facts.left_out = description.provenance.left_out;
     if (description.moment == level2::Moment::srv)
         facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
+    facts.quality = retrieve::quality_in_notes(description.provenance.notes);
     const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
     const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
     if (!local.ends_with(" UTC")) facts.local_time = local;

@@ -34,6 +34,7 @@ struct SceneOptions {
     std::string moment{level2::moment_name(level2::Moment::ref)};
     std::string dealias{retrieve::dealiasing_name(retrieve::Dealiasing::off)};
     std::string storm_motion{retrieve::automatic_motion};  // of SRV
+    double quality = 0;  // the least probability of weather of echo; 0: all echo
     std::string theme{theme_name(Theme::dark)};
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment
@@ -66,8 +67,9 @@ struct LoopChoices {
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
-// Refuses a rung of dealiasing and a storm motion other than `auto` for a picture of kept grids,
-// whose moments are derived already. A ppi is made from raw files, so it can have any of them.
+// Refuses a quality, and a rung of dealiasing and a storm motion other than `auto`, for a picture
+// of kept grids, whose moments are derived already. A ppi is made from raw files, so it can have
+// any of them.
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Status check_stored_derivation(const SceneOptions& options, Product product);
 

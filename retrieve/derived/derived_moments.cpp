@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "retrieve/derived/quality_moment.h"
 #include "retrieve/derived/read_folds.h"
 #include "retrieve/derived/shear_moments.h"
 
@@ -142,22 +143,32 @@ std::string motion_choices() {
 
 Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Moment> wanted,
                                     const DerivedOptions& options) {
-    if (options.dealiasing == Dealiasing::off)
-        return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");
+    Derived derived;
+    if (options.quality > 0) derived.notes.push_back(keep_weather(volume, options.quality));
     for (level2::Sweep& sweep : volume.sweeps)
         std::erase_if(sweep.moments, [](const SweepMoment& kind) {
             return level2::facts_of(kind.moment).is_derived;
         });
+    if (std::ranges::find(wanted, Moment::pow) != wanted.end()) add_quality_moment(volume);
+    if (std::ranges::none_of(wanted, level2::is_dealiased)) return derived;
+    if (options.dealiasing == Dealiasing::off)
+        return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");
     auto dealiased = add_dealiased_velocity(volume, options.dealiasing);
     if (!dealiased) return pass_on(dealiased);
-    Derived derived{std::move(*dealiased), {}};
+    derived.dealiased = std::move(*dealiased);
     const auto shear = add_shear_moments(volume, derived.dealiased, wanted);
     if (!shear) return pass_on(shear);
     if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
     auto notes = add_storm_relative(volume, derived.dealiased, options.motion);
     if (!notes) return pass_on(notes);
-    derived.notes = std::move(*notes);
+    std::ranges::move(*notes, std::back_inserter(derived.notes));
     return derived;
+}
+
+bool must_derive(std::span<const Moment> wanted, const DerivedOptions& options) {
+    return options.quality > 0 || std::ranges::any_of(wanted, [](Moment moment) {
+               return level2::facts_of(moment).is_derived;
+           });
 }
 
 Result<std::vector<std::string>> add_storm_relative_velocity(level2::Volume& volume,
@@ -176,8 +187,10 @@ Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
                         volume.vcp,
                         volume.vcp_source,
                         {}};
+    const bool needs_all =
+        options.quality > 0 || std::ranges::any_of(wanted, level2::uses_all_moments);
     for (const level2::Sweep& sweep : volume.sweeps)
-        made.sweeps.push_back(velocities_of(sweep));
+        made.sweeps.push_back(needs_all ? sweep : velocities_of(sweep));
     auto derived = add_derived_moments(made, wanted, options);
     if (!derived) return pass_on(derived);
     return DerivedVolume{std::move(made), std::move(derived->notes)};
@@ -205,6 +218,14 @@ std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {
     if (!text) return std::nullopt;
     const auto motion = parse_motion(*text);
     return motion ? std::optional{*motion} : std::nullopt;
+}
+
+std::string quality_in_notes(std::span<const std::string> notes) {
+    for (const std::string& note : notes) {
+        const std::size_t at = note.find(quality_words);
+        if (at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "))) return note;
+    }
+    return {};
 }
 
 }  // namespace stormcellar::retrieve

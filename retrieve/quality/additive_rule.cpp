@@ -26,7 +26,7 @@ RuleTables::RuleTables(const AdditiveRule& rule) : constant_(rule.constant) {
         for (std::size_t step = 0; step < steps; ++step)
             table.log_odds[step] = interpolated(
                 term.knots, table.first + static_cast<float>(step) / table.steps_per_unit);
-        table.log_odds[steps] = term.missing;
+        table.missing = term.missing;
     }
 }
 
@@ -34,10 +34,13 @@ void RuleTables::add(Feature feature, std::span<const float> values, float* log_
     const Table& table = tables_[table_of_[static_cast<std::size_t>(feature)]];
     for (std::size_t i = 0; i < values.size(); ++i) {
         const float value = values[i];
+        if (value != value) {
+            log_odds[i] += table.missing;
+            continue;
+        }
         const float step = (value - table.first) * table.steps_per_unit + 0.5F;
         const float inside = std::clamp(step, 0.0F, static_cast<float>(steps - 1));
-        const auto at = value == value ? static_cast<std::size_t>(inside) : steps;
-        log_odds[i] += table.log_odds[at];
+        log_odds[i] += table.log_odds[static_cast<std::size_t>(inside)];
     }
 }
 

@@ -49,7 +49,8 @@ class RuleTables {
     static constexpr std::size_t steps = 512;
     struct Table {
         float first = 0, steps_per_unit = 0;
-        std::array<float, steps + 1> log_odds{};  // the last is that of a missing value
+        float missing = 0;
+        std::array<float, steps> log_odds{};
     };
     float constant_;
     std::vector<Table> tables_;

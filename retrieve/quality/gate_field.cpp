@@ -132,10 +132,12 @@ GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& mome
     field.codes.assign(field.radials * field.gates, 0);
     const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
-        const std::size_t begin = radial * field.gates;
-        const auto keep = [&](const auto& codes) {
-            for (std::size_t at = begin; at < begin + moment.gate_counts[radial]; ++at)
-                field.codes[at] = codes[at] >= first_valid ? codes[at] : std::uint16_t{0};
+        const std::size_t begin = radial * field.gates, gates = moment.gate_counts[radial];
+        const auto keep = [to = field.codes.data() + begin, begin, gates,
+                           first_valid](const auto& codes) {
+            const auto* from = codes.data() + begin;
+            for (std::size_t gate = 0; gate < gates; ++gate)
+                to[gate] = from[gate] >= first_valid ? from[gate] : std::uint16_t{0};
         };
         if (moment.word_size_bits == 8)
             keep(moment.codes8);

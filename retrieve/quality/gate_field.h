@@ -67,7 +67,10 @@ class BoxSum {
 
     [[nodiscard]] float count() const { return static_cast<float>(bits_ >> sum_bits); }
     // Returns NaN if there are no numbers.
-    [[nodiscard]] float mean() const { return static_cast<float>(bits_ & most_sum) / count(); }
+    [[nodiscard]] float mean() const {
+        return bits_ != 0 ? static_cast<float>(bits_ & most_sum) / count()
+                          : std::numeric_limits<float>::quiet_NaN();
+    }
 
   private:
     std::uint32_t bits_;  // count, then sum

@@ -85,25 +85,32 @@ class QualityMaker {
         for (std::size_t moment = 0; moment < to.moments.size(); ++moment) {
             if (to.moments[moment].moment != Moment::ref) continue;
             const GateField field = gate_field(to, to.moments[moment]);
-            std::vector<float> copied(field.codes.size(), no_value);
-            for (std::size_t radial = 0; radial < field.radials; ++radial)
-                if (radials[radial] >= 0)
-                    copy_radial(field, radial, static_cast<std::size_t>(radials[radial]), there,
-                                *source, copied.data() + radial * field.gates);
-            made_.push_back({sweep, moment, std::move(copied)});
+            made_.push_back({sweep, moment, copied_probabilities(field, radials, there, *source)});
         }
     }
-    static void copy_radial(const GateField& field, std::size_t radial, std::size_t from,
-                            const level2::SweepMoment& there, const SweepQuality& source,
-                            float* copied) {
+    static std::vector<float> copied_probabilities(const GateField& field,
+                                                   const std::vector<std::int32_t>& radials,
+                                                   const level2::SweepMoment& there,
+                                                   const SweepQuality& source) {
         const auto stride = static_cast<std::size_t>(there.gate_stride);
-        const float* probabilities = source.probabilities.data() + from * stride;
-        for (std::size_t gate = 0; gate < field.gates; ++gate) {
-            if (field.row(radial)[gate] == 0) continue;
+        std::vector<std::size_t> gates(field.gates);  // stride: outside
+        for (std::size_t gate = 0; gate < gates.size(); ++gate) {
             const auto other =
                 std::llround((field.range_m(gate) - there.first_gate_m) / there.gate_spacing_m);
-            if (other >= 0 && other < there.gate_stride) copied[gate] = probabilities[other];
+            gates[gate] =
+                other >= 0 && other < there.gate_stride ? static_cast<std::size_t>(other) : stride;
         }
+        std::vector<float> copied(field.codes.size(), no_value);
+        for (std::size_t radial = 0; radial < field.radials; ++radial) {
+            if (radials[radial] < 0) continue;
+            const float* from =
+                source.probabilities.data() + static_cast<std::size_t>(radials[radial]) * stride;
+            const std::uint16_t* codes = field.row(radial);
+            for (std::size_t gate = 0; gate < field.gates; ++gate)
+                if (codes[gate] != 0 && gates[gate] != stride)
+                    copied[radial * field.gates + gate] = from[gates[gate]];
+        }
+        return copied;
     }
 
     const level2::Volume& volume_;

@@ -85,7 +85,9 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     SceneOptions options;
     CLI::App app;
     add_scene_options(app, options);
-    EXPECT_THAT(app.help(), ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD, SRV, AZSH or DIVG"));
+    EXPECT_THAT(app.help(),
+                ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD, SRV, AZSH, "
+                                     "DIVG or POW"));
 }
 
 // 2026-11-22: `--light shadow` with a composite was ignored without a message.

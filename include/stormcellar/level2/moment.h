@@ -20,7 +20,7 @@
 namespace stormcellar::level2 {
 
 // Grid files hold these numbers, so do not change them; add a new moment at the end.
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv, azsh, divg };
+enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv, azsh, divg, pow };
 
 // The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
@@ -54,6 +54,8 @@ struct MomentFacts {
     std::uint16_t first_valid_code = 2;
     // True if no radar sends the moment: the room `retrieve` derives it. Code 2 is ambiguous then.
     bool is_derived = false;
+    // The measured moment whose gates a derived moment has.
+    Moment measured = Moment::vel;
 };
 
 inline constexpr auto moment_facts = std::to_array<MomentFacts>({
@@ -126,6 +128,16 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      true,
      3,
      true},
+    {Moment::pow,
+     "POW",
+     "1",
+     {"probability that the echo is weather"},
+     Circle::none,
+     false,
+     false,
+     3,
+     true,
+     Moment::ref},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
@@ -163,7 +175,17 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
 
 // Returns the measured moment from which a derived moment comes, or the moment itself.
 [[nodiscard]] constexpr Moment measured_moment(Moment moment) {
-    return facts_of(moment).is_derived ? Moment::vel : moment;
+    return facts_of(moment).is_derived ? facts_of(moment).measured : moment;
+}
+
+// Returns true for moments that come from dealiased velocities.
+[[nodiscard]] constexpr bool is_dealiased(Moment moment) {
+    return facts_of(moment).is_derived && facts_of(moment).measured == Moment::vel;
+}
+
+// Returns true if all measured moments help to derive the moment.
+[[nodiscard]] constexpr bool uses_all_moments(Moment moment) {
+    return facts_of(moment).is_derived && facts_of(moment).measured == Moment::ref;
 }
 
 // Finds a moment by its name in upper case.

@@ -22,7 +22,8 @@ struct Selection {
     // Returns true for a chosen moment, and for a moment from which a chosen moment is derived.
     [[nodiscard]] bool wants(Moment moment) const {
         return moments.empty() || std::ranges::any_of(moments, [&](Moment chosen) {
-                   return chosen == moment || measured_moment(chosen) == moment;
+                   return chosen == moment || measured_moment(chosen) == moment ||
+                          uses_all_moments(chosen);
                });
     }
     [[nodiscard]] bool wants_cut(int elevation_number) const {

@@ -30,6 +30,8 @@ struct FrameFacts {
     std::vector<std::string> left_out = {};  // machines whose data are missing (grid::Provenance)
     // The motion to which the storm-relative velocity SRV refers, if all sites have the same.
     std::optional<retrieve::Motion> storm_motion = {};
+    // The echo that was left out because it is probably no weather (quality_in_notes()), or empty.
+    std::string quality = {};
     bool interpolated = false;  // the grid was interpolated between volumes, as requested
 };
 

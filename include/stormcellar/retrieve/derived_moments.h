@@ -59,7 +59,14 @@ inline constexpr std::string_view automatic_motion = "auto";
 struct DerivedOptions {
     Dealiasing dealiasing = Dealiasing::automatic;
     MotionChoice motion = {};  // for SRV
+    // First leaves out gates whose probability of weather (quality.h) is less than this; 0: keeps
+    // all. They become below threshold, and a note gives the share (quality_in_notes()).
+    double quality = 0;
 };
+
+// Returns true if a volume must pass through add_derived_moments() before its use.
+[[nodiscard]] bool must_derive(std::span<const level2::Moment> wanted,
+                               const DerivedOptions& options);
 
 struct Derived {
     Dealiased dealiased;
@@ -67,8 +74,8 @@ struct Derived {
     std::vector<std::string> notes;
 };
 
-// Adds VELD after each velocity moment, and those of SRV, AZSH and DIVG that are wanted. Replaces
-// these moments if the volume has them. Errors: see above.
+// Adds the wanted moments, and VELD after each velocity moment if another moment comes from it.
+// Replaces derived moments that the volume has. Errors: see above.
 [[nodiscard]] Result<Derived> add_derived_moments(level2::Volume& volume,
                                                   std::span<const level2::Moment> wanted,
                                                   const DerivedOptions& options = {});
@@ -78,8 +85,8 @@ struct DerivedVolume {
     std::vector<std::string> notes;
 };
 
-// Returns a copy of the volume that has only velocities and the moments derived from them. Errors:
-// see above.
+// Returns a copy of the volume with the wanted moments. Unless POW is wanted, or options.quality is
+// given, the copy has only velocities and the moments derived from them. Errors: see above.
 [[nodiscard]] Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
                                                        std::span<const level2::Moment> wanted,
                                                        const DerivedOptions& options = {});
@@ -96,5 +103,10 @@ struct DerivedVolume {
 // Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
 // or if the sites of a mosaic have different motions.
 [[nodiscard]] std::optional<Motion> motion_in_notes(std::span<const std::string> notes);
+
+// Returns what notes of a grid's provenance say about gates that were left out because they are
+// probably no weather: "probability of weather at least 0.5; 12.3 % of the echo left out". Empty if
+// no note says so.
+[[nodiscard]] std::string quality_in_notes(std::span<const std::string> notes);
 
 }  // namespace stormcellar::retrieve

@@ -37,8 +37,9 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
             [&](const level2::Volume& volume) { return render::cuts_of_wish(volume, wish); },
         .threads = threads,
         .start = start};
-    if (level2::facts_of(panel.moment).is_derived) {
-        source_wish.choose_cuts = {};  // all cuts help to dealias one
+    if (retrieve::must_derive(source_wish.moments, derived)) {
+        source_wish.choose_cuts = {};  // all cuts help to dealias and to judge one
+        source_wish.needs_all_moments = derived.quality > 0;
         source_wish.derive = [&](level2::Volume& volume) -> Result<std::vector<std::string>> {
             auto made = retrieve::add_derived_moments(volume, source_wish.moments, derived);
             if (!made) return pass_on(made);

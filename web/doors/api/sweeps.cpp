@@ -146,9 +146,9 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
                                {"chosen", chosen.contains({gates.moment, number})}});
         };
         add(gates.moment, gates.word_size_bits);
-        if (gates.moment != level2::Moment::vel) continue;
         for (const level2::MomentFacts& facts : level2::moment_facts)
-            if (facts.is_derived) add(facts.moment, 16);
+            if (facts.is_derived && facts.measured == gates.moment)
+                add(facts.moment, level2::is_dealiased(facts.moment) ? 16 : 8);
     }
     ApiJson json{{"sweep", number},
                  {"elevation_number", sweep.elevation_number},

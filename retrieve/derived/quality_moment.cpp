@@ -1,0 +1,149 @@
+#include "retrieve/derived/quality_moment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "retrieve/sweeps/nearest_sweep.h"
+#include "stormcellar/retrieve/quality.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+using level2::Moment;
+using level2::SweepMoment;
+
+constexpr float steps = 250;
+constexpr float code_of_zero = 3;
+
+// Returns the probability in whole steps, as POW has it, so that a picture of POW and a volume
+// without other echo agree.
+float rounded(float probability) {
+    return std::round(probability * steps) / steps;
+}
+
+SweepMoment quality_moment(const SweepMoment& reflectivity, const SweepQuality& quality) {
+    SweepMoment made = reflectivity;
+    made.moment = Moment::pow;
+    made.word_size_bits = 8;
+    made.scale = steps;
+    made.offset = code_of_zero;
+    made.codes16.clear();
+    made.codes8.resize(quality.probabilities.size());
+    for (std::size_t radial = 0; radial < made.gate_counts.size(); ++radial)
+        for (std::int32_t gate = 0; gate < made.gate_counts[radial]; ++gate) {
+            const std::size_t at = radial * static_cast<std::size_t>(made.gate_stride) +
+                                   static_cast<std::size_t>(gate);
+            const float probability = quality.probabilities[at];
+            // Echo whose probability is unknown is no measurement of POW; flags stay.
+            const std::uint16_t flag = reflectivity.code(radial, gate) < 2
+                                           ? reflectivity.code(radial, gate)
+                                           : std::uint16_t{2};
+            made.codes8[at] = static_cast<std::uint8_t>(
+                std::isnan(probability) ? static_cast<long>(flag)
+                                        : std::lrint(probability * steps + code_of_zero));
+        }
+    return made;
+}
+
+// Removes gates of one moment after another.
+class WeatherKeeper {
+  public:
+    WeatherKeeper(level2::Volume& volume, double least)
+        : volume_(volume),
+          qualities_(weather_probabilities(volume)),
+          least_(static_cast<float>(least)) {}
+
+    // Returns the share of reflectivity gates with echo that are removed.
+    double keep() {
+        for (std::size_t sweep = 0; sweep < volume_.sweeps.size(); ++sweep)
+            keep_in(sweep);
+        return echo_ > 0 ? static_cast<double>(removed_) / static_cast<double>(echo_) : 0;
+    }
+
+  private:
+    [[nodiscard]] const SweepQuality* quality_of(std::size_t sweep) const {
+        const auto found = std::ranges::find(qualities_, sweep, &SweepQuality::sweep);
+        return found != qualities_.end() ? &*found : nullptr;
+    }
+    void keep_in(std::size_t number) {
+        level2::Sweep& sweep = volume_.sweeps[number];
+        const auto companion =
+            companion_sweep(volume_, number, sweep.mean_elevation_deg(), Moment::ref);
+        const SweepQuality* quality = companion ? quality_of(*companion) : nullptr;
+        if (quality == nullptr) return;
+        const level2::Sweep& from = volume_.sweeps[*companion];
+        std::vector<std::int32_t> radials(sweep.radials.size());
+        if (*companion == number)
+            std::iota(radials.begin(), radials.end(), 0);
+        else
+            radials = nearest_radials(azimuths_of(sweep), from);
+        for (SweepMoment& moment : sweep.moments)
+            keep_gates(moment, from.moments[quality->moment], *quality, radials);
+    }
+    void keep_gates(SweepMoment& moment, const SweepMoment& judged, const SweepQuality& quality,
+                    const std::vector<std::int32_t>& radials) {
+        if (moment.gate_spacing_m <= 0) return;
+        std::vector<std::int64_t> gates(static_cast<std::size_t>(moment.gate_stride));
+        for (std::size_t gate = 0; gate < gates.size(); ++gate)
+            gates[gate] = std::llround(
+                (moment.range_m(static_cast<std::int32_t>(gate)) - judged.first_gate_m) /
+                judged.gate_spacing_m);
+        const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
+        for (std::size_t radial = 0; radial < moment.gate_counts.size(); ++radial) {
+            if (radials[radial] < 0) continue;
+            const auto stride = static_cast<std::size_t>(judged.gate_stride);
+            const std::span probabilities =
+                std::span(quality.probabilities)
+                    .subspan(static_cast<std::size_t>(radials[radial]) * stride, stride);
+            for (std::size_t gate = 0; gate < moment.gate_counts[radial]; ++gate) {
+                const std::int64_t there = gates[gate];
+                if (there < 0 || there >= judged.gate_stride) continue;
+                const std::size_t at = radial * static_cast<std::size_t>(moment.gate_stride) + gate;
+                const bool is_echo =
+                    moment.code(radial, static_cast<std::int32_t>(gate)) >= first_valid;
+                if (!is_echo) continue;
+                const float probability = probabilities[static_cast<std::size_t>(there)];
+                const bool is_removed = !std::isnan(probability) && rounded(probability) < least_;
+                if (moment.moment == Moment::ref) {
+                    ++echo_;
+                    removed_ += is_removed ? 1 : 0;
+                }
+                if (!is_removed) continue;
+                if (moment.word_size_bits == 8)
+                    moment.codes8[at] = 0;
+                else
+                    moment.codes16[at] = 0;
+            }
+        }
+    }
+
+    level2::Volume& volume_;
+    std::vector<SweepQuality> qualities_;
+    float least_;
+    std::int64_t echo_ = 0, removed_ = 0;
+};
+
+}  // namespace
+
+void add_quality_moment(level2::Volume& volume) {
+    for (SweepQuality& quality : weather_probabilities(volume)) {
+        level2::Sweep& sweep = volume.sweeps[quality.sweep];
+        SweepMoment made = quality_moment(sweep.moments[quality.moment], quality);
+        sweep.moments.push_back(std::move(made));
+    }
+}
+
+std::string keep_weather(level2::Volume& volume, double least) {
+    const double share = WeatherKeeper(volume, least).keep();
+    return fmt::format("{}{:g}; {:.1f} % of the echo left out", quality_words, least, 100 * share);
+}
+
+}  // namespace stormcellar::retrieve
