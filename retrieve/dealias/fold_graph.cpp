@@ -153,15 +153,16 @@ class CostDescent {
             cut.prefer_source(static_cast<std::int32_t>(node), -of_anchor_[node].by(step));
         looks -= cut.run(looks);
         const double change = change_of(cut, step);
-        // Require a clear gain, so that rounding does not make two solutions of equal cost
-        // alternate forever.
-        if (change > -1e-4) return false;
+        if (change > -least_change) return false;
         apply(cut, step);
         cost_ += change;
         return -change > least_gain * cost_;
     }
 
   private:
+    // Requires a clear gain, so that rounding does not make two solutions of equal cost alternate
+    // forever.
+    static constexpr double least_change = 1e-4;
     // By how much the cost rises if a fold number, or a difference of two, changes by one.
     struct Rise {
         float up = 0, down = 0;
@@ -213,7 +214,7 @@ class CostDescent {
     const std::vector<Votes>& anchors_;
     std::vector<std::int32_t>& folds_;
     std::vector<Rise> of_edge_, of_anchor_;
-    double cost_ = 0;  // of the edges, and the changes by the moves
+    double cost_ = 0;                                // of the edges, and the changes by the moves
 };
 
 }  // namespace

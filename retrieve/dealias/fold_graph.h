@@ -61,6 +61,12 @@ struct FoldEdge {
     return 1 - 1.8F * (from_whole < 0 ? -from_whole : from_whole);
 }
 
+// Returns the nearest whole number, quickly.
+[[nodiscard]] inline float nearest_whole(float turns) {
+    constexpr float first_without_parts = 12'582'912;  // 1.5 x 2^23, from which floats are whole
+    return (turns + first_without_parts) - first_without_parts;
+}
+
 // Joins all edges between the same two regions into one edge with a < b, and drops edges from a
 // region to itself.
 void combine_edges(std::vector<FoldEdge>& edges, std::int32_t regions);

@@ -107,7 +107,7 @@ class RegionFinder {
 
     static void vote(FoldEdge& edge, float a, float b, float weight) {
         const float turns = a - b;  // by how much b is too low
-        const float whole = std::nearbyint(turns);
+        const float whole = nearest_whole(turns);
         edge.votes.add(static_cast<int>(whole), weight * vote_weight(turns - whole));
     }
 

@@ -9,24 +9,9 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr int reach = 4;         // gates on each side
-constexpr int radial_reach = 2;  // radials on each side
-constexpr int least_pairs = 5;   // fewer pairs count as this many
-
-struct PairSum {
-    float difference = 0;
-    int pairs = 0;
-    void add(float a, float b) {
-        const float apart = std::abs(a - b);
-        if (std::isnan(apart)) return;
-        difference += std::min(apart, 1.0F);
-        ++pairs;
-    }
-    void add(const PairSum& other) {
-        difference += other.difference;
-        pairs += other.pairs;
-    }
-};
+constexpr int reach = 4;          // gates on each side
+constexpr int radial_reach = 2;   // radials on each side
+constexpr float least_pairs = 5;  // fewer pairs count as this many
 
 class RoughGates {
   public:
@@ -68,32 +53,43 @@ class RoughGates {
         return near_[at] != 0 || (at > 0 && near_[at - 1] != 0) ||
                (at + 1 < near_.size() && near_[at + 1] != 0);
     }
-    // Sums the pairs that begin in the column of gates about a gate.
-    [[nodiscard]] PairSum column(int radial, int gate) const {
-        PairSum sum;
-        if (gate < 0 || gate >= sheet_.gates) return sum;
-        for (int away = -radial_reach; away <= radial_reach; ++away) {
-            const int near = radial_at(radial + away);
-            if (near < 0) continue;
-            const float* row = unfolded_.row(near);
-            sum.add(row[gate], row[gate + 1]);
+    // Sums of differences, and numbers of pairs, that begin in each column of gates about a run.
+    // The first column is `reach` gates before the run.
+    static constexpr int columns = UnfoldedSheet::run_gates + 2 * reach;
+    struct Columns {
+        std::array<float, columns> differences{}, pairs{};
+    };
+    // The loops have no branches, so that the compiler handles several gates at once.
+    void add_row(int radial, int run, Columns& sums) const {
+        const int first = run * UnfoldedSheet::run_gates - reach;
+        const int begin = std::max(0, -first);
+        const int end = std::min(columns, unfolded_.runs() * UnfoldedSheet::run_gates - first);
+        const float* row = unfolded_.row(radial) + first;
+        for (int i = begin; i < end; ++i) {
+            const float apart = std::abs(row[i] - row[i + 1]);
+            const float pair = apart >= 0 ? 1.0F : 0.0F;  // 0 if a gate has no value
+            sums.differences[static_cast<std::size_t>(i)] += apart < 1.0F ? apart : pair;
+            sums.pairs[static_cast<std::size_t>(i)] += pair;
         }
-        return sum;
     }
     void mark(int radial, int run, std::vector<std::uint8_t>& rough) const {
-        constexpr int columns = UnfoldedSheet::run_gates + 2 * reach;
+        Columns sums;
+        for (int away = -radial_reach; away <= radial_reach; ++away)
+            if (const int near = radial_at(radial + away); near >= 0) add_row(near, run, sums);
+        std::array<float, UnfoldedSheet::run_gates> differences{}, pairs{};
+        for (std::size_t column = 0; column <= 2 * reach; ++column) {
+            for (std::size_t i = 0; i < differences.size(); ++i) {
+                differences[i] += sums.differences[i + column];
+                pairs[i] += sums.pairs[i + column];
+            }
+        }
         const int first = run * UnfoldedSheet::run_gates;
-        std::array<PairSum, columns> sums;
-        for (int i = 0; i < columns; ++i)
-            sums[static_cast<std::size_t>(i)] = column(radial, first - reach + i);
         const int end = std::min(first + UnfoldedSheet::run_gates, sheet_.gates);
         for (int gate = first; gate < end; ++gate) {
-            if (std::isnan(unfolded_.row(radial)[gate])) continue;
-            PairSum about;
-            for (int i = 0; i <= 2 * reach; ++i)
-                about.add(sums[static_cast<std::size_t>(gate - first + i)]);
-            const auto pairs = static_cast<float>(std::max(about.pairs, least_pairs));
-            if (about.difference > UnfoldedSheet::rough_turns * pairs)
+            const auto i = static_cast<std::size_t>(gate - first);
+            const bool is_rough =
+                differences[i] > UnfoldedSheet::rough_turns * std::max(pairs[i], least_pairs);
+            if (is_rough && !std::isnan(unfolded_.row(radial)[gate]))
                 rough[sheet_.at(radial, gate)] = 1;
         }
     }

@@ -165,7 +165,7 @@ class ShearRepair {
         const float turns = sheet_.turns[a] - sheet_.turns[b];
         if (std::isnan(turns)) return;
         const std::int32_t of_a = node_[a], of_b = node_[b];
-        const float whole = std::nearbyint(turns);
+        const float whole = nearest_whole(turns);
         const float weight = vote_weight(turns - whole);
         const int number = static_cast<int>(whole);
         if (of_a >= 0 && of_b >= 0) {
