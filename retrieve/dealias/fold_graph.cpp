@@ -214,7 +214,7 @@ class CostDescent {
     const std::vector<Votes>& anchors_;
     std::vector<std::int32_t>& folds_;
     std::vector<Rise> of_edge_, of_anchor_;
-    double cost_ = 0;                                // of the edges, and the changes by the moves
+    double cost_ = 0;  // of the edges, and the changes by the moves
 };
 
 }  // namespace

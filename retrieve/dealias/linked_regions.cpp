@@ -10,7 +10,12 @@ namespace {
 
 // Smaller regions cannot have many gates of two fold numbers.
 constexpr std::int32_t least_gates = 512;
-constexpr int least_jumps = 20;
+
+// Returns a number of jumps that noise at the border of a region hardly reaches. The border grows
+// as the square root of the number of gates.
+float least_jumps_of(std::int32_t gates) {
+    return std::max(20.0F, 0.2F * std::sqrt(static_cast<float>(gates)));
+}
 
 // Returns the region of a gate with a value.
 std::size_t region_at(const SheetRegions& regions, int radial, int gate) {
@@ -50,9 +55,12 @@ std::vector<std::uint8_t> linked_regions(const VelocitySheet& sheet, const Sheet
     }
     std::vector<std::uint8_t> linked;
     linked.reserve(jumps.size());
-    for (std::size_t region = 0; region < jumps.size(); ++region)
-        linked.push_back(
-            regions.gate_count[region] >= least_gates && jumps[region] >= least_jumps ? 1 : 0);
+    for (std::size_t region = 0; region < jumps.size(); ++region) {
+        const std::int32_t gates = regions.gate_count[region];
+        const bool is_linked =
+            gates >= least_gates && static_cast<float>(jumps[region]) >= least_jumps_of(gates);
+        linked.push_back(is_linked ? 1 : 0);
+    }
     return linked;
 }
 

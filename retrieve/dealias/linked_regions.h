@@ -17,8 +17,8 @@
 
 namespace stormcellar::retrieve {
 
-// Returns 1 for each region of at least 512 gates at which at least 20 pairs of gates jump by more
-// than half a turn. `folds` has the fold number of each gate of the sheet.
+// Returns 1 for each region of n >= 512 gates at which at least max(20, sqrt(n) / 5) pairs of gates
+// jump by more than half a turn. `folds` has the fold number of each gate of the sheet.
 [[nodiscard]] std::vector<std::uint8_t> linked_regions(const VelocitySheet& sheet,
                                                        const SheetRegions& regions,
                                                        const std::vector<std::int8_t>& folds);
