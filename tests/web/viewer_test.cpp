@@ -43,7 +43,8 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
 }
 
 TEST_F(Viewer, ItsPolicyLetsItAskThisServerAlone) {
-    for (const char* target : {"/view/", "/view/viewer.js", "/view/editor.js", "/view/worker.js"}) {
+    for (const char* target :
+         {"/view/", "/view/viewer.js", "/view/editor.js", "/view/layers.js", "/view/worker.js"}) {
         const Answer answer = get(target);
         const std::string policy = header_of(answer, "Content-Security-Policy");
         EXPECT_TRUE(policy.starts_with("default-src 'none'; script-src 'self'; ")) << target;
@@ -83,6 +84,7 @@ TEST_F(Viewer, TheProgramOfTheFirstPictureIsSmall) {
     const std::string bytes = body_of(get("/view/viewer.js", {{"Accept-Encoding", "gzip, zstd"}}));
     EXPECT_LE(bytes.size(), 84'500u);
     EXPECT_EQ(get("/view/editor.js").status, 200u) << "the editor is loaded when it is opened";
+    EXPECT_EQ(get("/view/layers.js").status, 200u) << "some layers are loaded when they are on";
 }
 
 TEST_F(Viewer, NothingElseIsThere) {

@@ -43,6 +43,13 @@ export function beamTo(site: Antenna, arcM: number, heightM: number): { elevatio
     return { elevationDeg: Math.atan2(up, along) / radians, rangeM: Math.hypot(along, up) };
 }
 
+// Returns the slant range at which a beam is above a place at an arc from the site. This is the inverse of beamAt().
+export function rangeAt(site: Antenna, elevationDeg: number, arcM: number): number {
+    const radius = beamSphereM(site.latitudeDeg);
+    const turn = arcM / radius;
+    return ((radius + site.altitudeM) * Math.sin(turn)) / Math.cos(turn + elevationDeg * radians);
+}
+
 export const azimuthSteps = 7200; // number of steps in a turn
 export const noRadial = 65535;
 

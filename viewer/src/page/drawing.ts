@@ -36,6 +36,7 @@ export class Drawing {
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
+    isLoadingLayers = false; // the program of a layer has not come (panels/load_layers.ts)
     drawn: DrawnLayers | null = null; // layers of the last picture
     readonly pictureChanged: (() => void)[] = []; // called after each picture
     private ground = new Ground(this.app, this.renderer, () => this.draw());
@@ -79,6 +80,7 @@ export class Drawing {
         app.on('units', () => {
             if (app.shown) void this.ground.show(app.shown);
         });
+        app.on('choices', () => this.layers.askAgain());
         app.on('view', () => this.draw());
         app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
@@ -192,6 +194,7 @@ export class Drawing {
         const { shown, state } = this.app;
         return (
             !this.layers.isWaiting &&
+            !this.isLoadingLayers &&
             !this.ground.isWaiting &&
             shown?.moment === state.moment &&
             shown.domain === state.domain &&

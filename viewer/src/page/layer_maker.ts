@@ -12,7 +12,16 @@ import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layer_passes';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
-import { Layers, echoLayers, isBelow, sweepMoment, usualLayers, veilsFolded } from '../scene/layers';
+import {
+    Layers,
+    echoLayers,
+    isBelow,
+    leastRotation,
+    rotationMoment,
+    sweepMoment,
+    usualLayers,
+    veilsFolded,
+} from '../scene/layers';
 import { Place, Plane, planeOf } from '../earth/projection';
 import { ColorTable } from '../wire/color_tables';
 import { heightText, valueText } from '../tables/units';
@@ -83,6 +92,7 @@ export class LayerMaker {
     private toldSweep = ''; // key of the sweep for which layerCame() was last called
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // key of the sweep that is being loaded
+    makeRotation: ((of: LoadedGrid) => LoadedGrid) | null = null; // null until its program has come
     layerCame: () => void = () => undefined; // called when a layer has come or failed, so that told() has changed
 
     constructor(
@@ -98,7 +108,8 @@ export class LayerMaker {
         const { shown, state } = this.app;
         if (!shown) return false;
         const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
-        return waitsForSweep || this.comingOthers.has(this.otherOf(shown)?.key ?? '') || this.windows.isWaiting;
+        const waitsForOther = this.othersOf(shown).some(({ key }) => this.comingOthers.has(key));
+        return waitsForSweep || waitsForOther || this.windows.isWaiting;
     }
     // Returns true if the sweep has come or failed. The drawn sweep has come, even if `sweeps` has no room to keep it.
     private isSweepSettled(key: string): boolean {
@@ -111,9 +122,8 @@ export class LayerMaker {
         const { sweepDeg } = this.app.state.layers;
         const waits: Promise<unknown>[] = [];
         if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
-        const other = this.otherOf(next);
-        if (other && next.loaded.stream === null && !this.app.loader.has(other.key) && !this.isMissing(other.key))
-            waits.push(this.takeOther(next, other));
+        for (const other of next.loaded.stream ? [] : this.othersOf(next))
+            if (!this.app.loader.has(other.key) && !this.isMissing(other.key)) waits.push(this.takeOther(next, other));
         // Fetch windows for the next grid only, because there is room for the windows of one grid.
         const windows = isAhead
             ? null
@@ -161,6 +171,7 @@ export class LayerMaker {
             maximum: seen && layers.hasMaximum ? this.maximumOf(seen) : null,
             sweep: this.sweepOf(shown)?.drawn ?? null,
             crop: layers.crop,
+            rotation: layers.hasRotation ? this.rotationOf(shown) : null,
             falls: lit && this.fallsOf(lit, shown, table),
             air: seen && (layers.hasHaze || hasFolded) ? this.airOf(seen, shown) : null,
             hasHaze: layers.hasHaze,
@@ -218,12 +229,22 @@ export class LayerMaker {
         if (!surface) return null;
         const moment = surface.moment || shown.moment;
         const drawn = { value: surface.value, isBelow: isBelow(moment, surface.value) };
-        if (moment === shown.moment) return { ...drawn, of: null };
-        // A grid in parts has no surface of another moment, which would need the bricks of two grids at once.
-        const other = shown.loaded.stream ? null : this.otherOf(shown);
-        if (!other) return null;
+        const of = this.gridOf(shown, moment);
+        return of && { ...drawn, of: of === shown.loaded ? null : of };
+    }
+    private rotationOf(shown: Shown): LoadedGrid | null {
+        const make = this.makeRotation;
+        const of = make && this.gridOf(shown, rotationMoment);
+        return of && this.kept.take('rotation', [of], () => make(of));
+    }
+    // Returns the grid of a moment at the shown time; null until it has come.
+    private gridOf(shown: Shown, moment: string): LoadedGrid | null {
+        if (moment === shown.moment) return shown.loaded;
+        // A grid in parts has no grid of another moment, because the bricks of two grids would be needed at once.
+        if (shown.loaded.stream) return null;
+        const other = this.otherOf(shown, moment);
         const of = this.app.loader.find(other.key);
-        if (of) return hasSameCells(of.grid, shown.loaded.grid) ? { ...drawn, of } : null;
+        if (of) return hasSameCells(of.grid, shown.loaded.grid) ? of : null;
         if (!this.comingOthers.has(other.key) && !this.isMissing(other.key)) {
             this.comingOthers.add(other.key);
             void this.takeOther(shown, other).then(() => {
@@ -234,10 +255,15 @@ export class LayerMaker {
         }
         return null;
     }
-    // Returns key and moment of the grid whose values the surface encloses; null if that is the shown grid.
-    private otherOf({ domain, moment, time }: Shown): { key: string; moment: string } | null {
-        const other = this.app.state.layers.surface?.moment || moment;
-        return other === moment ? null : { key: Loader.key(domain, other, time), moment: other };
+    private otherOf({ domain, time }: Shown, moment: string): { key: string; moment: string } {
+        return { key: Loader.key(domain, moment, time), moment };
+    }
+    // Returns the grids of other moments that layers need.
+    private othersOf(shown: Shown): { key: string; moment: string }[] {
+        const { surface, hasRotation } = this.app.state.layers;
+        return [surface?.moment || shown.moment, hasRotation ? rotationMoment : shown.moment]
+            .filter((moment, i, all) => moment !== shown.moment && all.indexOf(moment) === i)
+            .map((moment) => this.otherOf(shown, moment));
     }
     private isMissing(key: string): boolean {
         return performance.now() - (this.missingOthers.get(key)?.at ?? -Infinity) < againAfterMs;
@@ -253,14 +279,20 @@ export class LayerMaker {
             if (!isAbsent(error)) this.askLater();
         }
     }
+    // Asks again for grids that were missing. Call when the server may have more moments.
+    askAgain(): void {
+        if (this.missingOthers.size === 0) return;
+        this.missingOthers.clear();
+        this.came();
+    }
     // Causes another picture later. To draw it, the page asks again for the data that failed.
     private askLater(): void {
         window.setTimeout(this.came, againAfterMs + 1);
     }
-    // Returns the reason why the surface is not drawn; an empty text if it is drawn.
-    private whyNoSurface(shown: Shown): string {
-        const other = this.otherOf(shown);
-        if (!other) return '';
+    // Returns the reason why a layer of a moment's grid is not drawn; an empty text if it is drawn.
+    private whyNot(shown: Shown, moment: string): string {
+        if (moment === shown.moment) return '';
+        const other = this.otherOf(shown, moment);
         if (shown.loaded.stream) return texts.surfaceLeftOut;
         const of = this.app.loader.find(other.key);
         if (of) return hasSameCells(of.grid, shown.loaded.grid) ? '' : texts.layers.otherCells;
@@ -315,12 +347,16 @@ export class LayerMaker {
             const moment = layers.surface.moment || shown.moment;
             const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
             const value = valueText(layers.surface.value, unit, units);
-            const why = this.whyNoSurface(shown);
+            const why = this.whyNot(shown, moment);
             said.push(
                 (isBelow(moment, layers.surface.value)
                     ? texts.layers.surfaceBelow(moment, value)
                     : texts.layers.surfaceFrom(moment, value)) + (why && ` (${why})`),
             );
+        }
+        if (layers.hasRotation) {
+            const why = this.whyNot(shown, rotationMoment);
+            said.push(texts.layers.rotationTold(leastRotation) + (why && ` (${why})`));
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
         if (layers.sweepDeg !== null) said.push(this.sweepTold(shown));

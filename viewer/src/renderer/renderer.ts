@@ -4,7 +4,7 @@ import { Atlas, paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry, heightRange } from '../camera/geometry';
 import { MapLines } from '../scene/ground_lines';
-import { croppedBox } from '../scene/layers';
+import { columnShare, croppedBox } from '../scene/layers';
 import { cellSizeM } from '../earth/projection';
 import { ColorTable } from '../wire/color_tables';
 import { Transfer, makeTransfer } from '../tables/transfer';
@@ -15,7 +15,14 @@ import { Graphics } from './graphics';
 import { DrawnLayers, DrawnSurface, LayerPasses, hasSolids } from './layer_passes';
 import { LinePass } from './line_pass';
 import { Program } from './program';
-import { VolumeVariant, airProgram, groundProgram, surfaceProgram, volumeProgram } from './shader_programs';
+import {
+    SurfaceVariant,
+    VolumeVariant,
+    airProgram,
+    groundProgram,
+    surfaceProgram,
+    volumeProgram,
+} from './shader_programs';
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
 
@@ -56,7 +63,7 @@ export class Renderer {
     private gl: WebGL2RenderingContext;
     private graphics: Graphics;
     private uploaded: Uploaded | null = null;
-    private other: Uploaded | null = null; // grid of another moment whose surface is drawn
+    private others = new Map<LoadedGrid, Uploaded>(); // grids of other moments, of which surfaces are drawn
     private passes: LayerPasses;
     private exposure: Exposure;
     private lines: LinePass;
@@ -98,7 +105,8 @@ export class Renderer {
         this.lines.forget();
         this.water.forget();
         this.tiles.forget();
-        this.uploaded = this.other = null;
+        this.uploaded = null;
+        this.others.clear();
         this.passes.forget();
         this.exposure.forget();
         this.transferTexture = null;
@@ -120,9 +128,18 @@ export class Renderer {
         }
     }
 
-    private releaseOther(): void {
-        this.release(this.other);
-        this.other = null;
+    private keepOthers(needed: (LoadedGrid | null | undefined)[]): void {
+        for (const [loaded, uploaded] of this.others) {
+            if (needed.includes(loaded)) continue;
+            this.release(uploaded);
+            this.others.delete(loaded);
+        }
+    }
+    private uploadedOf(shown: Uploaded, of: LoadedGrid | null): Uploaded {
+        if (!of || of === shown.loaded) return shown;
+        const uploaded = this.others.get(of) ?? this.upload(of);
+        this.others.set(of, uploaded);
+        return uploaded;
     }
 
     private upload(loaded: LoadedGrid, pool: WebGLTexture | null = null): Uploaded {
@@ -209,7 +226,7 @@ export class Renderer {
         const { uploaded } = this;
         const isSolid = layers !== null && uploaded !== null && hasSolids(layers);
         this.passes.begin(isSolid);
-        if (!layers?.surface?.of) this.releaseOther();
+        this.keepOthers([layers?.surface?.of, layers?.rotation]);
         if (isSolid)
             this.passes.drawSolids(geometry, layers, (surface) => this.drawSurface(frame, uploaded, layers, surface));
         gl.viewport(0, 0, geometry.width, geometry.height);
@@ -231,10 +248,12 @@ export class Renderer {
         if (frame.hasGround) this.lines.draw(geometry, frame.grain);
         if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, uploaded, layers, layers.air);
         if (isSolid) this.passes.showSolids(geometry);
-        if (!frame.hasVolume) return;
-        if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
-        gl.enable(gl.BLEND);
-        this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
+        if (frame.hasVolume) {
+            if (layers?.falls && !frame.keepsExposure) this.measureLight(frame);
+            gl.enable(gl.BLEND);
+            this.drawVolume(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
+        }
+        if (layers?.rotation) this.drawRotation(frame, uploaded, layers.rotation);
     }
 
     // Returns the mean number of texels that the volume reads for a pixel. Draws over the picture.
@@ -399,31 +418,9 @@ export class Renderer {
         layers: DrawnLayers,
         { value, isBelow, of }: DrawnSurface,
     ): void {
-        const gl = this.gl;
-        const { geometry } = frame;
-        if (of && this.other?.loaded !== of) {
-            this.release(this.other);
-            this.other = this.upload(of);
-        }
-        const surface = (of && this.other) ?? shown;
+        const surface = this.uploadedOf(shown, of);
         if (surface.loaded.atlas.brickCount === 0) return;
-        const wanted = surfaceProgram({
-            isPerspective: geometry.isPerspective,
-            hasUnevenLevels: surface.levels !== null,
-            hasHalved: surface.loaded.stream !== null,
-            isBelow,
-            hasOther: of !== null,
-        });
-        const program = this.graphics.use(wanted, geometry);
-        this.bindGrid(surface, frame, program);
-        const { grid, atlas } = surface.loaded;
-        const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
-        program.float('chosen', chosen);
-        program.uint('leastShown', isBelow ? 1 : Math.min(255, Math.max(1, Math.floor(chosen))));
-        const [width, height] = cellSizeM(grid);
-        program.vec3('cellM', [width, height, levelSpacingM(grid) * geometry.exaggeration]);
-        program.vec2('depthRange', geometry.nearM, geometry.farM);
-        this.passes.bindSun(geometry, program);
+        const program = this.useSurface(frame, surface, value, { isBelow, hasOther: of !== null });
         if (of) {
             program.texture3d('otherAtlas', 4, shown.atlas);
             program.texture3d('otherIndirection', 5, shown.indirection);
@@ -434,7 +431,46 @@ export class Renderer {
         const colored = shown.loaded;
         const zero = colored.grid.firstValue + colored.grid.step * (colored.atlas.codeOffset - 3);
         this.passes.bindLooks(2, layers, program, [zero, colored.grid.step * colored.atlas.codeScale]);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
+    }
+    // Returns the program of a surface around values of a grid, with all but its colors.
+    private useSurface(
+        frame: Frame,
+        surface: Uploaded,
+        value: number,
+        how: Pick<SurfaceVariant, 'isBelow' | 'hasOther' | 'isColumn'>,
+    ): Program {
+        const { geometry } = frame;
+        const wanted = surfaceProgram({
+            isPerspective: geometry.isPerspective,
+            hasUnevenLevels: surface.levels !== null,
+            hasHalved: surface.loaded.stream !== null,
+            ...how,
+        });
+        const program = this.graphics.use(wanted, geometry);
+        this.bindGrid(surface, frame, program);
+        const { grid, atlas } = surface.loaded;
+        const chosen = (3 + (value - grid.firstValue) / grid.step - atlas.codeOffset) / atlas.codeScale;
+        program.float('chosen', chosen);
+        program.uint('leastShown', how.isBelow ? 1 : Math.min(255, Math.max(1, Math.floor(chosen))));
+        const [width, height] = cellSizeM(grid);
+        program.vec3('cellM', [width, height, levelSpacingM(grid) * geometry.exaggeration]);
+        program.vec2('depthRange', geometry.nearM, geometry.farM);
+        this.passes.bindSun(geometry, program);
+        return program;
+    }
+
+    // Draws columns of rotation over everything else, because echo would hide them. The echo shows through them.
+    private drawRotation(frame: Frame, shown: Uploaded, of: LoadedGrid): void {
+        const surface = this.uploadedOf(shown, of);
+        if (surface.loaded.atlas.brickCount === 0) return;
+        this.gl.enable(this.gl.BLEND);
+        for (const isBelow of [false, true]) {
+            const value = isBelow ? -columnShare : columnShare;
+            const program = this.useSurface(frame, surface, value, { isBelow, isColumn: true });
+            program.colors('columnColor', shades.turning[isBelow ? 1 : 0]!);
+            this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
+        }
     }
 
     showWater(mask: WaterMask | null): void {

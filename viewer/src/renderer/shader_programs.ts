@@ -57,7 +57,8 @@ export type AirVariant = GridVariant & {
 };
 export type SurfaceVariant = GridVariant & {
     isBelow: boolean; // the surface encloses values of at most the chosen value
-    hasOther: boolean; // another moment colors the surface
+    hasOther?: boolean; // another moment colors the surface
+    isColumn?: boolean; // the surface has one color, through which the echo shows
 };
 
 export const radialsAcross = 1800; // length of a row in the texture of radials

@@ -6,6 +6,10 @@ const css = (color: readonly number[]) => `rgb(${color.slice(0, 3).join(' ')} / 
 
 export const shades = {
     ...dark,
+    turning: [
+        [140, 122, 255],
+        [214, 240, 190],
+    ], // rotation, counterclockwise and clockwise
     lake: [138, 158, 182, 200],
     axis: 'rgba(120, 130, 146, 0.35)',
     histogram: 'rgba(166, 177, 192, 0.30)',

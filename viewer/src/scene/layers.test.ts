@@ -1,7 +1,16 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { Layers, croppedBox, layersAddress, layersOf, productOf, sectionOf, usualLayers } from './layers';
+import {
+    Layers,
+    beyondCommand,
+    croppedBox,
+    layersAddress,
+    layersOf,
+    productOf,
+    sectionOf,
+    usualLayers,
+} from './layers';
 import { addressOf, commandOf, stateOf, usualState } from './view_state';
 
 const all: Layers = {
@@ -15,6 +24,8 @@ const all: Layers = {
     hasMaximum: true,
     sweepDeg: 1.45,
     isSweepDealiased: true,
+    hasGlyphs: true,
+    hasRotation: true,
     sweepNumber: 3,
     crop: { westM: -40000, eastM: 10500, southM: -3000, northM: 60000, bottomM: 500, topM: 15000 },
     isLit: true,
@@ -35,6 +46,16 @@ test('parameters of layers that make no sense are ignored', () => {
     assert.equal(sectionOf('35,-97,35,-97'), null);
     assert.equal(sectionOf('35,-97,36'), null);
     assert.equal(layersOf(new URLSearchParams(`surface=5&surface-moment=${'x'.repeat(99)}`)).surface!.moment.length, 8);
+});
+
+test('the command draws the glyphs of a sweep of velocities', () => {
+    const layers = { ...usualLayers, hasVolume: false, sweepDeg: 0.5, hasGlyphs: true };
+    const command = (moment: string, change: Partial<Layers>) =>
+        commandOf({ ...usualState, domain: 'KTLX', moment, layers: { ...layers, ...change } }, 800, 600, '');
+    assert(command('VEL', {}).includes('--product ppi --elevation 0.5 --glyphs '));
+    assert(!command('REF', {}).includes('--glyphs'));
+    assert(!command('VEL', { sweepDeg: null, planeM: 3000 }).includes('--glyphs'));
+    assert.equal(beyondCommand({ ...usualLayers, hasRotation: true }, 1), 'surface');
 });
 
 test('the command draws one flat layer, or the volume with its light', () => {

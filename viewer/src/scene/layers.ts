@@ -27,11 +27,19 @@ export interface Layers {
     sweepDeg: number | null; // elevation of the sweep that is shown
     sweepNumber: number | null; // number of the sweep in its volume (see cutOf()); null: the sweep that pictures take
     isSweepDealiased: boolean; // the sweep has dealiased velocities although the shown moment is the measured velocity
+    hasGlyphs: boolean; // the sweep of a velocity has beam glyphs
+    hasRotation: boolean; // columns of strong azimuthal shear are drawn
     crop: Crop | null; // box to which volume and surface are cut
     isLit: boolean;
     hasHaze: boolean; // air that no beam saw is veiled
     hasFolded: boolean | null; // range folded air is veiled; null: see veilsFolded()
 }
+
+// The moment whose strong values are drawn as rotation, and their least strength in its unit, 0.001/s. Where the values
+// are above zero, rotation is counterclockwise. fields/rotation.ts says what the share is.
+export const rotationMoment = 'AZSH';
+export const leastRotation = 8;
+export const columnShare = 0.22;
 
 // Returns true if the value is a negative velocity. Its surface encloses faster velocities toward the radar.
 export const isBelow = (moment: string, value: number): boolean =>
@@ -62,6 +70,8 @@ export const usualLayers: Layers = {
     sweepDeg: null,
     sweepNumber: null,
     isSweepDealiased: false,
+    hasGlyphs: false,
+    hasRotation: false,
     crop: null,
     isLit: false,
     hasHaze: false,
@@ -91,6 +101,8 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
     if (layers.sweepDeg !== null && layers.isSweepDealiased) parts.push(['dealiased', '1']);
+    if (layers.hasGlyphs) parts.push(['glyphs', '1']);
+    if (layers.hasRotation) parts.push(['rotation', '1']);
     const { crop } = layers;
     if (crop) parts.push(['crop-km', cropSides.map((side) => kilometers(crop[side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
@@ -150,6 +162,8 @@ export function layersOf(query: URLSearchParams): Layers {
         sweepDeg: one('elevation', -5, 90),
         sweepNumber: Number.isInteger(sweep) ? sweep : null,
         isSweepDealiased: query.get('dealiased') === '1',
+        hasGlyphs: query.get('glyphs') === '1',
+        hasRotation: query.get('rotation') === '1',
         crop: cropOf(query.get('crop-km')),
         isLit: query.get('light') === 'gradient',
         hasHaze: query.get('haze') === '1',
@@ -157,8 +171,16 @@ export function layersOf(query: URLSearchParams): Layers {
     };
 }
 
-export const echoLayers = ({ hasVolume, planeM, section, surface, hasMaximum, sweepDeg }: Layers): number =>
-    [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null].filter(Boolean).length;
+export const echoLayers = ({
+    hasVolume,
+    planeM,
+    section,
+    surface,
+    hasMaximum,
+    sweepDeg,
+    hasRotation,
+}: Layers): number =>
+    [hasVolume, planeM !== null, section, surface, hasMaximum, sweepDeg !== null, hasRotation].filter(Boolean).length;
 
 // Returns the reason why `stormcellar frame` cannot draw the layers; null if it can. The command draws exactly one
 // layer. It refuses a surface, a volume in a box, a sweep of a mosaic, and veils of haze or of range folded air without
@@ -167,7 +189,7 @@ export function beyondCommand(
     layers: Layers,
     siteCount: number,
 ): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
-    if (layers.surface) return 'surface';
+    if (layers.surface || layers.hasRotation) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
     if (!layers.hasVolume && (layers.hasHaze || layers.hasFolded === true)) return 'haze';
     const drawn = echoLayers(layers);

@@ -164,7 +164,8 @@ export function sweepHit(
     return first;
 }
 
-function gateAt(
+// Finds the gate of a place on the cone of a sweep; null beyond the gates.
+export function gateAt(
     gates: PackedSweep,
     radials: Uint16Array,
     place: Omit<GateHit, 'state' | 'value' | 'timeMs'>,

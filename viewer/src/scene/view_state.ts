@@ -5,6 +5,7 @@ import { geodesic } from '../earth/projection';
 import { moments, ranges, usualGrid } from '../facts';
 import { Draft } from '../tables/draft';
 import { draftOfText, textOfDraft } from '../tables/draft_text';
+import { isVelocity } from '../wire/moments';
 import { PackedGrid } from '../wire/packed_grid';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 import { quoted } from './shell';
@@ -219,6 +220,7 @@ export function commandOf(
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
     if (file && volume > 1) words.push('--volume', String(volume));
     words.push(...(product ?? cameraWords(state)));
+    if (product?.includes('ppi') && state.layers.hasGlyphs && isVelocity(moment)) words.push('--glyphs');
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);

@@ -36,6 +36,7 @@ const all: programs.ShaderProgram[] = [
             either.flatMap((other) => [
                 programs.airProgram({ ...grid, hasHaze: one, hasFolded: other }),
                 programs.surfaceProgram({ ...grid, isBelow: one, hasOther: other }),
+                programs.surfaceProgram({ ...grid, isBelow: one, isColumn: true }),
             ]),
         ),
     ]),

@@ -27,6 +27,12 @@ export function momentFacts(name: string): MomentFacts {
     return facts[name];
 }
 
+// Returns true for velocities along the beam, which have beam glyphs.
+export function isVelocity(name: string): boolean {
+    const facts = isMoment(name) ? momentFacts(name) : null;
+    return facts !== null && facts.isSigned && facts.unit === 'm/s';
+}
+
 // Returns true if the moment with a number in packed grids and sweeps is derived. Moments that the page does not know
 // are not.
 export const isDerivedNumber = (number: number): boolean => Object.values(facts)[number]?.isDerived ?? false;

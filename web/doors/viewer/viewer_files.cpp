@@ -8,6 +8,7 @@ STORMCELLAR_EMBED(viewer_page, STORMCELLAR_VIEWER_PAGE "/index.html");
 STORMCELLAR_EMBED(viewer_style, STORMCELLAR_VIEWER_PAGE "/viewer.css");
 STORMCELLAR_EMBED(viewer_program, STORMCELLAR_VIEWER_MADE "/viewer.js");
 STORMCELLAR_EMBED(viewer_editor, STORMCELLAR_VIEWER_MADE "/editor.js");
+STORMCELLAR_EMBED(viewer_layers, STORMCELLAR_VIEWER_MADE "/layers.js");
 STORMCELLAR_EMBED(viewer_worker, STORMCELLAR_VIEWER_MADE "/worker.js");
 
 namespace stormcellar::web {
@@ -19,6 +20,7 @@ std::span<const ViewerFile> viewer_files() {
         ViewerFile{"viewer.css", "text/css; charset=utf-8", STORMCELLAR_EMBEDDED(viewer_style)},
         ViewerFile{"viewer.js", script, STORMCELLAR_EMBEDDED(viewer_program)},
         ViewerFile{"editor.js", script, STORMCELLAR_EMBEDDED(viewer_editor)},
+        ViewerFile{"layers.js", script, STORMCELLAR_EMBEDDED(viewer_layers)},
         ViewerFile{"worker.js", script, STORMCELLAR_EMBEDDED(viewer_worker)},
     };
     return files;

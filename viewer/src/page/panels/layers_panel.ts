@@ -22,8 +22,8 @@ import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_
 import { Pointers } from '../pointers';
 import { derivedOf, isMoment } from '../../wire/moments';
 import { texts } from '../texts';
+import { loadLayers } from './load_layers';
 import { openSettings } from './look';
-import { SectionPlot } from './section_plot';
 
 const words = texts.layers;
 const usualPlaneM = 3000;
@@ -49,7 +49,18 @@ function putSlider(id: string, [low, high]: [number, number], step: number, valu
 }
 
 type ToggleName =
-    'volume' | 'plane' | 'section' | 'surface' | 'maximum' | 'sweep' | 'crop' | 'light' | 'haze' | 'folded';
+    | 'volume'
+    | 'plane'
+    | 'section'
+    | 'surface'
+    | 'maximum'
+    | 'sweep'
+    | 'glyphs'
+    | 'rotation'
+    | 'crop'
+    | 'light'
+    | 'haze'
+    | 'folded';
 interface Toggle {
     box: HTMLInputElement;
     isOn: () => boolean;
@@ -78,7 +89,7 @@ export class LayersPanel {
         element('title').after(this.told);
         this.addLayers(keys);
         addMarks(this.app, this.drawing);
-        new SectionPlot(this.app, this.drawing.windows);
+        loadLayers(this.app, this.drawing);
         this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
         this.drawing.layers.layerCame = () => this.put();
     }
@@ -99,7 +110,11 @@ export class LayersPanel {
             this.addToggle(name, isOn, toggle, parts);
             keys.add(key, toggle);
         };
-        const addFlag = (name: ToggleName, key: string, flag: 'hasVolume' | 'hasMaximum' | 'isLit' | 'hasHaze') =>
+        const addFlag = (
+            name: ToggleName,
+            key: string,
+            flag: 'hasVolume' | 'hasMaximum' | 'hasRotation' | 'isLit' | 'hasHaze',
+        ) =>
             add(
                 name,
                 key,
@@ -113,6 +128,13 @@ export class LayersPanel {
         add('surface', 'i', is('surface'), () => this.toggleSurface(), this.surfaceParts());
         addFlag('maximum', 'm', 'hasMaximum');
         add('sweep', 'w', is('sweepDeg'), () => this.toggleSweep(), this.sweepParts());
+        add(
+            'glyphs',
+            'j',
+            () => this.layers.hasGlyphs,
+            () => this.toggleGlyphs(),
+        );
+        addFlag('rotation', 'k', 'hasRotation');
         add('crop', 'b', is('crop'), () => this.toggleCrop(), this.cropParts());
         addFlag('light', 'g', 'isLit');
         addFlag('haze', 'n', 'hasHaze');
@@ -293,6 +315,11 @@ export class LayersPanel {
 
     private toggleSweep(): void {
         this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestSweepDeg : null, sweepNumber: null });
+    }
+    // Shows glyphs together with the sweep that they stand on.
+    private toggleGlyphs(): void {
+        const { hasGlyphs, sweepDeg } = this.layers;
+        this.set({ hasGlyphs: !hasGlyphs, sweepDeg: hasGlyphs ? sweepDeg : (sweepDeg ?? lowestSweepDeg) });
     }
     // Chooses a cut by its elevation, and also by its number if pictures take another cut of this elevation.
     private chooseCut(number: number): void {

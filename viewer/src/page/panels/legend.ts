@@ -34,6 +34,7 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     const moments = [isOfGrid ? (shown?.moment ?? '') : '', ofSweep];
     if (table && moments.some((one) => isMoment(one) && momentFacts(one).isDerived))
         rows.push({ text: texts.ambiguous, color: shades.seen, lines: table.range_folded });
+    if (layers.hasRotation) texts.layers.turning.forEach((text, i) => rows.push({ text, color: shades.turning[i]! }));
     if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
     return rows;
 }

@@ -86,7 +86,7 @@ export class SectionPlot {
         return [Math.max(16, width - left - right), Math.max(16, height - top - bottom)];
     }
 
-    private put(): void {
+    put(): void {
         const { shown, table, state } = this.app;
         const ends = state.layers.section;
         const hasBeenHidden = this.box.hidden;

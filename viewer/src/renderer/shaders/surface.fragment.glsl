@@ -7,6 +7,10 @@ uniform vec3 cellM; // size of a cell in drawn space
 
 const float surfaceExposure = 0.86; // makes a surface about as light as its color
 const vec3 plainColor = vec3(0.62); // color where the table has none
+#ifdef IS_COLUMN
+uniform vec3 columnColor;
+const float thin = 0.55, thick = 0.95; // opacity where the ray meets the column at a right angle, and at its edge
+#endif
 const float nowhere = 1e30; // depth if the ray misses the surface; other depths may be less than 0
 
 // Returns the mean code at a place, and the share of cells with values.
@@ -19,7 +23,8 @@ vec2 codeAt(vec3 p) {
     return found.g < 0.002 ? vec2(0.0) : vec2(255.0 * found.r / found.g, found.g);
 }
 
-#ifdef HAS_OTHER
+#ifdef IS_COLUMN
+#elif defined(HAS_OTHER)
 uniform sampler3D otherAtlas;
 uniform usampler3D otherIndirection;
 uniform vec3 otherSlots;
@@ -113,10 +118,16 @@ void main() {
     }
     // Color the place by its value, or by the value of the other moment. Light it unless it is on a cut.
     vec3 p = start + hit * along;
+#ifdef IS_COLUMN
+    vec3 outward = normalize(outwardAt(p)), toward = normalize(along);
+    float aside = 1.0 - abs(dot(outward, toward));
+    color = vec4(litColor(columnColor, surfaceExposure * facing(outward, 1.0, toward)), 1.0) * mix(thin, thick, aside * aside);
+#else
     float code = coloringCode(p);
     vec4 look = lookOf(code);
     vec3 rgb = code < 0.0 || look.a == 0.0 ? plainColor : look.rgb;
     float factor = isCut ? 1.0 : surfaceExposure * facing(outwardAt(p), 1.0, normalize(along));
     color = vec4(litColor(rgb, factor), 1.0);
     gl_FragDepth = clamp((hit - depthRange.x) / (depthRange.y - depthRange.x), 0.0, 0.999999);
+#endif
 }

@@ -1,0 +1,13 @@
+// The parts of layers that few pictures need. load_layers.ts loads them when a layer needs them.
+
+import { rotationOf } from '../../fields/rotation';
+import { App } from '../app';
+import { Drawing } from '../drawing';
+import { addGlyphs } from './glyph_overlay';
+import { SectionPlot } from './section_plot';
+
+export function begin(app: App, drawing: Drawing): void {
+    new SectionPlot(app, drawing.windows).put();
+    addGlyphs(app, drawing);
+    drawing.layers.makeRotation = rotationOf;
+}
