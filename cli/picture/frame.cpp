@@ -22,6 +22,7 @@
 #include "render/options/fitted_view.h"
 #include "render/options/named_place.h"
 #include "render/options/still_frame.h"
+#include "render/products/rotation.h"
 #include "stormcellar/render/still.h"
 
 namespace stormcellar::cli {
@@ -29,7 +30,8 @@ namespace {
 
 // Draws the frame. `fit_s` is the time for fitting the view; it is part of the reading time.
 Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
-                               const PictureGrid& file, SteadyTime start, double fit_s) {
+                               const PictureGrid& file, const grid::BrickView* rotation,
+                               SteadyTime start, double fit_s) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
     timing.decode_s = decode_s(file);
@@ -51,13 +53,26 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
         .drawn = [&] { timing.render_s = seconds_since(start) - timing.read_s; }};
     const grid::BrickView view = file.view();
     const auto bytes = render::encode_still(
-        {options.domain, view, file.description(), options.scene}, planned, writing);
+        {options.domain, view, file.description(), options.scene, true, rotation}, planned,
+        writing);
     if (!bytes) return pass_on(bytes);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
     if (auto written = write_still(options.output, *bytes); !written) return pass_on(written);
     timing.total_s = seconds_since(start);
     timing.write_s = timing.total_s - timing.read_s - timing.render_s;
     return timing;
+}
+
+// Returns the columns of rotation; none if there is no grid of shear. Errors: bad_argument if the
+// grid of shear has other cells than the shown one.
+Result<std::optional<grid::BrickGrid>> columns_of(const FrameGrids& grids) {
+    std::optional<grid::BrickGrid> columns;
+    if (!grids.shear) return columns;
+    if (!(*grids.shear->view().spec == *grids.shown->view().spec))
+        return fail(ErrorCode::bad_argument, "--rotation: the grid of AZSH has other cells");
+    columns = render::rotation_columns(grids.shear->view());
+    if (Status whole = grids.shear->check_whole(); !whole) return pass_on(whole);
+    return columns;
 }
 
 int run_frame(FrameOptions options) {
@@ -73,27 +88,32 @@ int run_frame(FrameOptions options) {
     auto plan = plan_beside_slices(options.plan, options.scene);
     if (!plan) return report_error(plan.error());
     options.plan = std::move(*plan);
-    const auto grid = grid_of_frame(options, *scene);
-    if (!grid) return report_error(grid.error());
-    if (!*grid) return exit_nothing_matched;
+    const auto grids = grid_of_frame(options, *scene);
+    if (!grids) return report_error(grids.error());
+    if (!grids->shown) return exit_nothing_matched;
+    const PictureGrid* const grid = &*grids->shown;
     const auto before_fit = steady_now();
-    const grid::BrickView view = (*grid)->view();
-    const render::StillSource source{options.domain, view, (*grid)->description(), options.scene};
+    const grid::BrickView view = grid->view();
+    const render::StillSource source{options.domain, view, grid->description(), options.scene};
     if (const Status fitted = render::fit_to_grid(source, *scene); !fitted)
         return report_error(fitted.error());
     const double fit_s = render::fits_anything(options.scene) ? seconds_since(before_fit) : 0;
-    const auto probe = probe_grid(options, *scene, **grid);
+    const auto probe = probe_grid(options, *scene, *grid);
     if (!probe) return report_error(probe.error());
-    if (const Status whole = (*grid)->check_whole(); !whole) return report_error(whole.error());
+    if (const Status whole = grid->check_whole(); !whole) return report_error(whole.error());
+    const auto columns = columns_of(*grids);
+    if (!columns) return report_error(columns.error());
     FrameTiming timing{.read_s = seconds_since(start),
-                       .decode_s = decode_s(**grid),
+                       .decode_s = decode_s(*grid),
                        .total_s = seconds_since(start)};
     if (!options.output.empty()) {
-        const auto drawn = make_frame(options, *scene, **grid, start, fit_s);
+        const grid::BrickView rotation = *columns ? (*columns)->view() : grid::BrickView{};
+        const auto drawn =
+            make_frame(options, *scene, *grid, *columns ? &rotation : nullptr, start, fit_s);
         if (!drawn) return report_error(drawn.error());
         timing = *drawn;
     }
-    report_frame(options, *scene, (*grid)->description(), timing, *probe);
+    report_frame(options, *scene, grid->description(), timing, *probe);
     return exit_done;
 }
 
@@ -132,6 +152,10 @@ Run set_up_frame(CLI::App& frame) {
         "--panels", options->panels,
         "Show several moments of one time side by side, each with its own colors, as in "
         "REF,VEL,RHO,ZDR");
+    frame.add_flag("--rotation", options->rotation,
+                   fmt::format("Draw columns of rotation in a volume: azimuthal shear of {:g}/s "
+                               "or more, {:g} km deep or more",
+                               render::least_rotation / 1000, render::least_column_m / 1000));
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");

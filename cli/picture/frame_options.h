@@ -28,6 +28,7 @@ struct FrameOptions {
     std::string probe_at;  // the name or coordinates of a place
     std::string geotiff;   // content of a GeoTIFF
     render::TiffContent tiff = render::TiffContent::values;
+    bool rotation = false;  // draw columns of rotation
     bool json = false;
     SceneFile scene_file;
     SceneOptions scene;

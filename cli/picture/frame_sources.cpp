@@ -71,20 +71,39 @@ Result<cache::StoreReader> open_store(FrameOptions& options) {
     return store;
 }
 
+// Returns the grid of azimuthal shear of the domain at a time.
+Result<PictureGrid> stored_shear(const cache::StoreReader& store, const FrameOptions& options,
+                                 UtcTime time) {
+    const auto entries = store.list(options.domain, level2::Moment::azsh, time, time);
+    if (!entries) return pass_on(entries);
+    if (entries->empty()) {
+        return fail(ErrorCode::not_found,
+                    "--rotation needs azimuthal shear; domain '{}' has no grid of AZSH at {}",
+                    options.domain, format_utc(time));
+    }
+    return PictureGrid::open(entries->back().path);
+}
+
 // Returns the grid. If no grid matched, reports that and returns none.
-Result<std::optional<PictureGrid>> stored_grid(FrameOptions& options, level2::Moment moment) {
+Result<FrameGrids> stored_grid(FrameOptions& options, level2::Moment moment) {
     if (Status none = refuse_grid_options(options); !none) return pass_on(none);
     const auto store = open_store(options);
     if (!store) return pass_on(store);
     const auto entry = find_grid(*store, options, moment);
     if (!entry) return pass_on(entry);
+    FrameGrids grids;
     if (!*entry) {
         report_nothing(*store, options, moment);
-        return std::optional<PictureGrid>{};
+        return grids;
     }
     auto grid = PictureGrid::open((*entry)->path);
     if (!grid) return pass_on(grid);
-    return std::optional{std::move(*grid)};
+    grids.shown = std::move(*grid);
+    if (!options.rotation) return grids;
+    auto shear = stored_shear(*store, options, (*entry)->time);
+    if (!shear) return pass_on(shear);
+    grids.shear = std::move(*shear);
+    return grids;
 }
 
 // Returns the sweep, read from the raw volume of the domain's newest grid of any moment. If there
@@ -123,16 +142,38 @@ Result<PictureGrid> sweep_of_file(const GridOptions& options, const render::Scen
     return PictureGrid::of_sweep(std::move(*volume), scene);
 }
 
-Result<std::optional<PictureGrid>> grid_of_files(FrameOptions& options,
-                                                 const render::Scene& scene) {
+// Grids the moment and, for columns of rotation, azimuthal shear. Decodes the files once.
+Result<FrameGrids> made_grids(GridOptions grid, bool has_rotation) {
+    if (has_rotation) {
+        grid.moment += ",AZSH";
+        grid.takes_moments = true;
+    }
+    auto made = PictureGrid::make_each(std::move(grid));
+    if (!made) return pass_on(made);
+    FrameGrids grids{std::move(made->front()), std::nullopt};
+    if (!has_rotation) return grids;
+    if (made->size() != 2 || made->back().description().moment != level2::Moment::azsh)
+        return fail(ErrorCode::not_found, "--rotation needs velocities; the files have none");
+    grids.shear = std::move(made->back());
+    return grids;
+}
+
+Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& scene) {
     take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
-    auto grid = render::facts_of(scene.product).is_of_sweep ? sweep_of_file(options.grid, scene)
-                                                            : PictureGrid::make(options.grid);
-    if (!grid) return pass_on(grid);
-    options.domain = grid->name();
-    return std::optional{std::move(*grid)};
+    FrameGrids grids;
+    if (render::facts_of(scene.product).is_of_sweep) {
+        auto sweep = sweep_of_file(options.grid, scene);
+        if (!sweep) return pass_on(sweep);
+        grids.shown = std::move(*sweep);
+    } else {
+        auto made = made_grids(options.grid, options.rotation);
+        if (!made) return made;
+        grids = std::move(*made);
+    }
+    options.domain = grids.shown->name();
+    return grids;
 }
 
 // Sorts the words of the command line into files and a domain.
@@ -146,9 +187,13 @@ Status take_sources(FrameOptions& options) {
 
 }  // namespace
 
-Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
-                                                 const render::Scene& scene) {
+Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& scene) {
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
+    if (options.rotation &&
+        (scene.product != render::Product::volume || scene.moment == level2::Moment::azsh)) {
+        return fail(ErrorCode::bad_argument,
+                    "--rotation is for a volume of another moment than AZSH");
+    }
     const bool is_of_sweep = render::facts_of(scene.product).is_of_sweep;
     if (!options.catalog.directory.empty() && (!is_of_sweep || !options.grid.files.empty())) {
         return fail(ErrorCode::bad_argument,
@@ -158,11 +203,16 @@ Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
     if (!options.grid.files.empty()) return grid_of_files(options, scene);
     if (Status fits = check_stored_derivation(options.scene, scene.product); !fits)
         return pass_on(fits);
-    return is_of_sweep ? stored_sweep(options, scene) : stored_grid(options, scene.moment);
+    if (!is_of_sweep) return stored_grid(options, scene.moment);
+    auto sweep = stored_sweep(options, scene);
+    if (!sweep) return pass_on(sweep);
+    return FrameGrids{std::move(*sweep), std::nullopt};
 }
 
 Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
                                                  const std::vector<PanelScene>& panels) {
+    if (options.rotation)
+        return fail(ErrorCode::bad_argument, "--rotation is for one picture, not for panels");
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
     if (options.grid.files.empty()) {
         if (Status none = refuse_grid_options(options); !none) return pass_on(none);

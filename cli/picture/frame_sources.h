@@ -16,11 +16,14 @@
 
 namespace stormcellar::cli {
 
+// The grid of a picture and, for columns of rotation, the grid of azimuthal shear of the same time.
+struct FrameGrids {
+    std::optional<PictureGrid> shown, shear;
+};
 // Returns the grid of the scene, and sets its domain in the options. If the cache has no such grid,
 // reports that and returns none. Errors: bad_argument for words and options that do not fit each
-// other, and those of PictureGrid's functions.
-[[nodiscard]] Result<std::optional<PictureGrid>> grid_of_frame(FrameOptions& options,
-                                                               const render::Scene& scene);
+// other; not_found if there is no shear; those of PictureGrid's functions.
+[[nodiscard]] Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& scene);
 // Returns the grids of several moments at one time, in the order of the panels. If the cache does
 // not have all of them, reports that and returns an empty list.
 [[nodiscard]] Result<std::vector<PictureGrid>> grids_of_panels(

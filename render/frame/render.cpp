@@ -46,12 +46,12 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
 }
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& asked,
-                           int threads, FrameCache* kept) {
+                           int threads, FrameCache* kept, const grid::BrickView* rotation) {
     if (auto valid = check_frame(view, facts, asked); !valid) return pass_on(valid);
     const Scene scene = scene_shown(view, asked);
     const bool of_sweep = view.sweep != nullptr;
     const auto columns = of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
-    const DrawnView drawn{view, facts, scene, columns};
+    const DrawnView drawn{view, facts, scene, columns, rotation};
     FrameCache own;
     FrameCache& cache = kept != nullptr ? *kept : own;
     if (!scene.labels) {
@@ -60,6 +60,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
     DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
+    if (rotation != nullptr) add_rotation_rows(texts.legend);
     if (of_sweep) {
         const auto place = lay_out_labels(*fonts, scene, facts, texts);
         if (!place) return pass_on(place);

@@ -9,6 +9,7 @@
 #include "render/map/map_lines.h"
 #include "render/products/flat_field.h"
 #include "render/products/ground.h"
+#include "render/products/rotation.h"
 #include "render/products/section.h"
 #include "render/products/smooth_field.h"
 #include "render/products/sweep_field.h"
@@ -52,6 +53,15 @@ void draw_volume(const DrawnView& drawn, const ViewGeometry& geometry, int threa
     slicer.prepare(drawn.view, threads, cache.room);
     slicer.cast(drawn.view, threads, cache.room);
     composite_over(cache.room.layer, picture, 0, 0, threads);
+}
+
+void draw_rotation(const DrawnView& drawn, const ViewGeometry& geometry, int threads,
+                   Image& picture) {
+    const Scene& scene = drawn.scene;
+    const VolumeSlicer slicer(
+        rotation_colors(), drawn.rotation->quantization, geometry,
+        {scene.slices, scene.integration, 1, scene.pixel_tolerance, scene.light}, nullptr, threads);
+    composite_over(slicer.draw(*drawn.rotation, threads), picture, 0, 0, threads);
 }
 
 Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size,
@@ -144,6 +154,7 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
     if (view == View::volume) {
         Image picture = canvas.image();
         draw_volume(drawn, geometry, threads, cache, picture);
+        if (drawn.rotation != nullptr) draw_rotation(drawn, geometry, threads, picture);
         if (fonts == nullptr) return picture;
         canvas.place(picture, 0, 0);
     }

@@ -24,6 +24,7 @@ struct DrawnView {
     const FrameFacts& facts;
     const Scene& scene;
     const std::vector<ColumnSummary>& columns;
+    const grid::BrickView* rotation = nullptr;  // drawn over a volume
 };
 
 // The size of the picture, and of its lines and letters.

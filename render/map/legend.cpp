@@ -5,6 +5,7 @@
 #include "render/color/built_in_tables.h"
 #include "render/image/shades.h"
 #include "render/products/ground.h"
+#include "render/products/rotation.h"
 #include "render/view/length_text.h"
 #include "render/volume/haze.h"
 #include "stormcellar/render/product.h"
@@ -78,6 +79,11 @@ Legend legend_of(const Scene& scene) {
         add_flat_rows(scene, legend);
     }
     return legend;
+}
+
+void add_rotation_rows(Legend& legend) {
+    legend.rows.push_back({"cyclonic shear", cyclonic_color});
+    legend.rows.push_back({"anticyclonic shear", anticyclonic_color});
 }
 
 }  // namespace stormcellar::render

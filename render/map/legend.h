@@ -32,4 +32,7 @@ struct Legend {
 // Makes the legend of a valid scene. The table of the scene must outlive the legend.
 [[nodiscard]] Legend legend_of(const Scene& scene);
 
+// Adds the colors of rotation over a volume.
+void add_rotation_rows(Legend& legend);
+
 }  // namespace stormcellar::render

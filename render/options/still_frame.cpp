@@ -49,7 +49,8 @@ Result<std::vector<std::byte>> encode_still(const StillSource& source, const Sce
                                .threads = writing.threads};
     if (writing.format.encode_map != nullptr)
         return writing.format.encode_map({source.view, facts, scene}, options);
-    const auto picture = render_frame(source.view, facts, scene, writing.threads);
+    const auto picture =
+        render_frame(source.view, facts, scene, writing.threads, nullptr, source.rotation);
     if (!picture) return pass_on(picture);
     if (writing.drawn) writing.drawn();
     return writing.format.encode_picture(*picture, options);

@@ -33,6 +33,7 @@ struct StillSource {
     // If true, the picture says how old the newest radial is, if that is less than an hour. If
     // false, the picture does not depend on the time at which it is drawn.
     bool tells_age = true;
+    const grid::BrickView* rotation = nullptr;  // as for render_frame()
 };
 
 // Returns the facts that the labels of the still show.

@@ -75,6 +75,7 @@ export default defineConfig({
     },
     { name: 'clear-air', testMatch: 'clear_air.spec.mjs', use: { volumes: [clearAir] } },
     { name: 'dealiased', testMatch: 'dealiased.spec.mjs', use: { volumes: [hurricane] } },
+    { name: 'wind', testMatch: 'wind.spec.mjs', use: { volumes: [supercells] } },
     { name: 'newcomer', testMatch: 'newcomer.spec.mjs', use: { volumes: [supercells] } },
     { name: 'sequence', testMatch: /(time|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
     { name: 'region', testMatch: /(region|water)\.spec\.mjs/, use: { volumes: neighbors } },

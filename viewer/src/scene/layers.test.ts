@@ -55,7 +55,9 @@ test('the command draws the glyphs of a sweep of velocities', () => {
     assert(command('VEL', {}).includes('--product ppi --elevation 0.5 --glyphs '));
     assert(!command('REF', {}).includes('--glyphs'));
     assert(!command('VEL', { sweepDeg: null, planeM: 3000 }).includes('--glyphs'));
-    assert.equal(beyondCommand({ ...usualLayers, hasRotation: true }, 1), 'surface');
+    assert(command('REF', { hasVolume: true, sweepDeg: null, hasRotation: true }).includes(' --rotation '));
+    assert.equal(beyondCommand({ ...usualLayers, hasRotation: true }, 1), null);
+    assert.equal(beyondCommand({ ...usualLayers, hasVolume: false, hasRotation: true }, 1), 'surface');
 });
 
 test('the command draws one flat layer, or the volume with its light', () => {

@@ -189,10 +189,10 @@ export function beyondCommand(
     layers: Layers,
     siteCount: number,
 ): 'surface' | 'box' | 'several' | 'none' | 'haze' | 'mosaic' | null {
-    if (layers.surface || layers.hasRotation) return 'surface';
+    if (layers.surface || (layers.hasRotation && !layers.hasVolume)) return 'surface';
     if (layers.hasVolume && layers.crop) return 'box';
     if (!layers.hasVolume && (layers.hasHaze || layers.hasFolded === true)) return 'haze';
-    const drawn = echoLayers(layers);
+    const drawn = echoLayers({ ...layers, hasRotation: false });
     if (drawn !== 1) return drawn === 0 ? 'none' : 'several';
     return layers.sweepDeg !== null && siteCount > 1 ? 'mosaic' : null;
 }

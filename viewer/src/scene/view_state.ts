@@ -220,6 +220,7 @@ export function commandOf(
     if (state.time !== 'latest' && !file) words.push('--time', state.time);
     if (file && volume > 1) words.push('--volume', String(volume));
     words.push(...(product ?? cameraWords(state)));
+    if (!product && state.layers.hasRotation) words.push('--rotation');
     if (product?.includes('ppi') && state.layers.hasGlyphs && isVelocity(moment)) words.push('--glyphs');
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));

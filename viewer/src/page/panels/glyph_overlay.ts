@@ -127,11 +127,13 @@ export function addGlyphs(app: App, drawing: Drawing): void {
         const sweep = drawing.drawn?.sweep;
         const { shown, state } = app;
         const moment = sweepMoment(state.layers, shown?.moment ?? '');
+        const { dataset } = document.documentElement;
+        dataset['glyphs'] = '0';
         if (!state.layers.hasGlyphs || !sweep || !shown || !isVelocity(moment)) return;
         const [ratio, scale] = [pixelRatio(), 1.15 * textScale()];
         const glyphs = planGlyphs(geometry, sweep, planeOf(shown.loaded.grid), ratio, scale);
         putGlyphs(pen, glyphs, scale);
         putKey(app, pen, [geometry.width / ratio, geometry.height / ratio], scale);
-        document.documentElement.dataset['glyphs'] = String(glyphs.length);
+        dataset['glyphs'] = String(glyphs.length);
     });
 }
