@@ -48,6 +48,31 @@ TEST_F(FrameFiles, IsThePictureOfTheStoredGrid) {
     }
 }
 
+TEST_F(FrameFiles, RotationIsDrawnOverAVolume) {
+    const std::string file = volume("KTLX19990503_235621.gz");
+    const auto draw = [&](const std::string& to, Words words) {
+        words.insert(words.begin(), {"frame", file, "-o", out(to)});
+        return run(words);
+    };
+    const auto with = draw("a.png", {"--rotation"});
+    ASSERT_EQ(with.status, 0) << with.err;
+    ASSERT_EQ(draw("b.png", {}).status, 0);
+    EXPECT_FALSE(pixels_of(out("a.png")) == pixels_of(out("b.png")));
+    for (const Words& words :
+         {Words{"--rotation", "--product", "ppi"}, Words{"--rotation", "--moment", "AZSH"},
+          Words{"--rotation", "--panels", "REF,VEL"}})
+        EXPECT_EQ(draw("c.png", words).status, 2) << words.back();
+    EXPECT_FALSE(fs::exists(out("c.png")));
+}
+
+TEST_F(FrameFiles, RotationOfADomainNeedsItsShear) {
+    ingest(volume("KTLX19990503_235621.gz"));
+    const auto refused =
+        run({"frame", "KTLX", "--cache", out("cache"), "--rotation", "-o", out("a.png")});
+    EXPECT_NE(refused.status, 0);
+    EXPECT_THAT(refused.err, HasSubstr("domain 'KTLX' has no grid of AZSH at 1999-05-03T23:56:21"));
+}
+
 TEST_F(FrameFiles, SeveralSitesAreAMosaic) {
     const fs::path northeast = data_ / "mosaic-northeast";
     const auto json =

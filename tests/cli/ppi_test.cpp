@@ -10,6 +10,7 @@
 #include "base/degree.h"
 #include "stormcellar/base/file_system.h"
 #include "tests/cli/files_and_service.h"
+#include "tests/testing/file_bytes.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -68,6 +69,23 @@ TEST_F(Ppi, DrawsWhatIsThereOfAVolumeThatIsCut) {
         run({"frame", low, "--product", "ppi", "--elevation", "19.5", "-o", out("b.png")});
     EXPECT_NE(high.status, 0);
     EXPECT_THAT(high.err, HasSubstr("elevations of 0.5, 1.5 degrees"));
+}
+
+TEST_F(Ppi, BeamGlyphsStandOnVelocities) {
+    const std::string file = volume("KLBB20160601_150025_V06");
+    const auto draw = [&](const std::string& to, Words words) {
+        words.insert(words.begin(), {"frame", file, "--product", "ppi", "-o", out(to)});
+        return run(words);
+    };
+    ASSERT_EQ(draw("a.png", {"--moment", "VELD", "--glyphs"}).status, 0);
+    ASSERT_EQ(draw("b.png", {"--moment", "VELD"}).status, 0);
+    EXPECT_NE(testing::file_text(out("a.png")), testing::file_text(out("b.png")));
+    const auto refused = draw("c.png", {"--glyphs"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("beam glyphs show velocities (VEL, VELD or SRV), not REF"));
+    // Only the panels of velocities have glyphs.
+    const auto panels = draw("d.png", {"--panels", "REF,VEL", "--glyphs"});
+    EXPECT_EQ(panels.status, 0) << panels.err;
 }
 
 TEST_F(Ppi, PanelsShowTheSweepOfEachMoment) {

@@ -101,6 +101,7 @@ TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
          {std::tuple{"--height-km", " 4", but_cappi},
           {"--section", " 35,-98.5,36,-97", but_section},
           {"--echo-top-dbz", " 30", but_tops},
+          {"--glyphs", "", " " + all},
           {"--azimuth", " 180", flat},
           {"--tilt", " 50", flat},
           {"--zoom", " 2", std::string(" section")},

@@ -78,6 +78,11 @@ TEST_F(SceneFileTest, EveryKeyOfAFlatPictureReachesTheScene) {
     EXPECT_EQ(cappi->cappi_height_m, 4500);
     EXPECT_EQ(cappi->camera.zoom, 2);
     settings_ = {};
+    ASSERT_TRUE(read("[picture]\nproduct = \"ppi\"\nmoment = \"VELD\"\nglyphs = true\n"));
+    const auto sweep = scene_of(settings_.scene);
+    ASSERT_TRUE(sweep) << sweep.error().message;
+    EXPECT_TRUE(sweep->glyphs);
+    settings_ = {};
     ASSERT_TRUE(read("[picture]\nproduct = \"echotop\"\necho_top_dbz = 30\n"));
     const auto tops = scene_of(settings_.scene);
     ASSERT_TRUE(tops) << tops.error().message;
