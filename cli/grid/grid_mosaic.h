@@ -52,10 +52,10 @@ struct MosaicSources {
 [[nodiscard]] Result<MosaicSources> load_mosaic(const std::vector<std::string>& files,
                                                 const GridRequest& request);
 
-// Returns the request for the moment of `overlap`, on the grid of the sources. Without --time the
-// request has no instant, and the mosaic chooses one: the middle between the earliest and the
-// latest of the sites' newest volumes. But if one of these volumes is more than 15 minutes from
-// that middle, the mosaic chooses the middle of the newest volume.
+// Returns the request for `overlap.moment`, on the grid of the sources. Without --time the request
+// has no instant, and the mosaic chooses one: it takes the middle time of each site's newest
+// volume, and the instant is half way between the earliest and the latest of these times. If they
+// are more than 30 minutes apart, the instant is the latest.
 [[nodiscard]] pipeline::MosaicRequest mosaic_request(const MosaicSources& sources,
                                                      const GridRequest& request,
                                                      const grid::MosaicOptions& overlap,

@@ -5,9 +5,9 @@
 // the box. Air that was seen, with or without echo, has no haze. The haze is behind all echo, so
 // that colors stay exact.
 //
-// Accuracy  Cells that were not seen are kept as their share in coarse cells of 4 x 4 columns and 2
-//           levels. Rays are cast for every fourth pixel in both directions and interpolated in
-//           between, because a veil has no edges that matter.
+// Accuracy  A coarse cell of 4 x 4 columns and 2 levels holds only the fraction of its cells that
+//           were not seen. Rays are cast for every fourth pixel in both directions and interpolated
+//           in between, because a veil has no edges that matter.
 // Threads   Pure; the same bits for any number of threads.
 #pragma once
 

@@ -35,8 +35,8 @@ class PolarVelocity {
     // Returns NaN where bins with a value have less than half of the weight.
     [[nodiscard]] double at(double x_m, double y_m) const { return at(x_m, y_m, unexpected); }
     [[nodiscard]] double at(double x_m, double y_m, double expected_mps) const;
-    // Moves each bin by whole turns until it is nearest to the expected velocity, where `expected`
-    // returns one and not NaN.
+    // Moves each bin by whole turns until it is nearest to the velocity that `expected` returns for
+    // its place. Bins for which `expected` returns NaN stay.
     void refold(const std::function<double(double x_m, double y_m)>& expected);
     // Returns the height above the antenna of the beam's axis over an arc.
     [[nodiscard]] double height_m(double arc_m) const;
@@ -45,7 +45,8 @@ class PolarVelocity {
     [[nodiscard]] double elevation_deg() const { return elevation_deg_; }
     // Returns the number of bins with a value.
     [[nodiscard]] std::size_t values() const { return values_; }
-    // Returns the number of bins that another field of the same sweep has with another fold number.
+    // Returns the number of bins whose fold numbers differ between this object and `other`, which
+    // must be of the same sweep.
     [[nodiscard]] std::size_t differences(const PolarVelocity& other) const;
 
   private:

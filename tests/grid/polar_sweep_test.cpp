@@ -40,7 +40,7 @@ struct Prepared {
     PolarSweep sweep;
 };
 
-// Sites whose radii and altitudes cover all real sites.
+// Sites whose latitudes and altitudes span those of all real sites.
 struct Stratum {
     double latitude_deg, altitude_m;
 };
@@ -313,7 +313,7 @@ TEST(PolarSweep, ABeamThatLostAnEdgeRisesAsTheHalfThatIsThere) {
             if (!sure) continue;
             const double up = (high.over(arc_m).height_m - height_m) / 0.475;
             const double down = (height_m - low.over(arc_m).height_m) / 0.475;
-            double rise = range_m / 57.29577951;  // one degree wide
+            double rise = range_m / 57.29577951;  // a degree, if there is no edge
             if (edges.lower && edges.upper) rise = (up + down) / 2;
             if (edges.lower != edges.upper) rise = edges.lower ? down : up;
             ++(edges.lower ? (edges.upper ? both : lower_alone)

@@ -54,7 +54,7 @@ TEST(GridScene, DrawsInProportionToWhatColumnsHold) {
         EXPECT_GE(column.ix, 98) << "there is no echo in the west";
     }
     EXPECT_EQ(draws, 3000);
-    // Weights are 1 / size, so the weighted share of each size must equal its share of columns.
+    // The sum of draws * weight estimates the number of columns, up to a common factor.
     EXPECT_GT(columns, 0);
     const ColumnSample again = scene->draw(3000, 1);
     EXPECT_EQ(again.columns.size(), sample.columns.size())
@@ -141,7 +141,8 @@ GridPlan planned_for(const level2::Volume& volume, const GridSpec& spec, const c
         .value();
 }
 
-// With thin echo, a column has few of the cells that it could have, so a bound needs many columns.
+// With thin echo, a column has values in few of the cells that may hold one, so the sample needs
+// many columns before it gives a bound.
 TEST(Plan, ThinEchoIsMeasuredUntilThereIsABound) {
     SweepPlan low;
     low.code = [](int radial, int gate) {

@@ -30,8 +30,9 @@ class WebService {
     // Returns false if the server could not be opened again after a reload. look_again() tries
     // again.
     [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
-    // Returns true if the server is open. Asks it for its facts first, so this never returns while
-    // the server is stuck.
+    // Returns false if the server is not open. Otherwise waits for an answer of the server and
+    // returns true. If the server is stuck, this deliberately never returns, so that the watchdog
+    // restarts the service.
     [[nodiscard]] bool is_at_work() const;
     // Call once a second.
     void look_again();
@@ -52,7 +53,7 @@ class WebService {
 
     Sources sources_;
     ListenSockets sockets_;
-    std::string problem_;             // last logged problem with the numbers of times
+    std::string problem_;             // last logged problem with keeping the TimeNumbers
     std::unique_ptr<Server> server_;  // null only if it could not be opened again
 };
 

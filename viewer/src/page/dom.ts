@@ -20,8 +20,8 @@ export function pixelRatio(): number {
     return window.devicePixelRatio || 1;
 }
 
-// Gives a canvas one pixel for each pixel of the screen that it covers. Returns a pen that draws in pixels of the page,
-// which are larger if texts are larger.
+// Gives a canvas one pixel for each pixel of the screen that it covers. Returns a pen whose unit is
+// textScale() pixels of the page, so that drawings grow with the texts.
 export function penOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
     const ratio = pixelRatio();
     canvas.width = Math.round(canvas.clientWidth * ratio);
