@@ -5,9 +5,7 @@ import { join } from 'node:path';
 
 // Removes blanks beside operators, but not in `a - -b`, and not in directives, where they may matter.
 const withoutBlanks = (line) =>
-    line.startsWith('#')
-        ? line
-        : line.replace(/ ?([=*/,;(){}<>?:&|!%]) ?/g, '$1').replace(/ ([+-]) (?![+-])/g, '$1');
+    line.startsWith('#') ? line : line.replace(/ ?([=*/,;(){}<>?:&|!%]) ?/g, '$1').replace(/ ([+-]) (?![+-])/g, '$1');
 
 const [from, to] = process.argv.slice(2);
 mkdirSync(to, { recursive: true });
