@@ -23,6 +23,9 @@ struct MomentRules {
     bool has_detection_limit = false;
     // The reason why values of different sites are not mixed; empty if they may be mixed.
     std::string_view why_sites_stay_apart = {};
+    // True if a mosaic nevertheless takes the largest of their values, as rotation that any of the
+    // sites sees is there.
+    bool takes_largest_of_sites = false;
 };
 
 [[nodiscard]] const MomentRules& rules_of(level2::Moment moment);

@@ -21,11 +21,12 @@ constexpr double largest_length_m = 1e7;
 
 Status check_options(const MosaicOptions& options) {
     const std::string_view why_apart = rules_of(options.moment).why_sites_stay_apart;
-    if (!why_apart.empty() && options.overlap != Overlap::nearest) {
-        return fail(
-            ErrorCode::bad_argument,
-            "{} of different sites cannot be mixed ({}); use the overlap rule nearest, not {}",
-            level2::moment_name(options.moment), why_apart, overlap_name(options.overlap));
+    const Overlap usual = default_overlap(options.moment);
+    if (!why_apart.empty() && options.overlap != Overlap::nearest && options.overlap != usual) {
+        return fail(ErrorCode::bad_argument,
+                    "{} of different sites cannot be mixed ({}); use the overlap rule {}, not {}",
+                    level2::moment_name(options.moment), why_apart, overlap_name(usual),
+                    overlap_name(options.overlap));
     }
     if (options.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "only reflectivity can be averaged in Z, not {}",
@@ -128,6 +129,7 @@ std::optional<Overlap> overlap_from_name(std::string_view name) {
 
 Overlap default_overlap(level2::Moment moment) {
     const bool mixes = rules_of(moment).why_sites_stay_apart.empty();
+    if (rules_of(moment).takes_largest_of_sites) return Overlap::maximum;
     return mixes ? Overlap::distance_weighted : Overlap::nearest;
 }
 

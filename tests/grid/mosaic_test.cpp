@@ -177,6 +177,42 @@ TEST(Mosaic, EveryPairOfStatesMeetsItsRule) {
     EXPECT_EQ(state_of(Overlap::nearest, Moment::vel, nothing, weak), no_echo);
 }
 
+TEST(Mosaic, OfRotationIsTheLargestOfAnySite) {
+    GridSpec domain = square_spec(41, -75, 16);
+    domain.levels_m = {1000};
+    enum State { unseen, nothing, folded, unsure, weak, strong };
+    const auto put = [](int state, auto& status, float& value) {
+        constexpr CellStatus of[] = {CellStatus::not_seen,     CellStatus::no_echo,
+                                     CellStatus::range_folded, CellStatus::ambiguous,
+                                     CellStatus::value,        CellStatus::value};
+        status = of[state];
+        value = state == weak ? -12.0F : 20.0F;
+    };
+    const Quantization codes = default_quantization(Moment::azsh);
+    Partials partials(domain);
+    partials.add({"KAAA", 41, -75, 0}, {0, 0, 16, 16}, codes,
+                 [&](int x, int, int, auto& status, float& value) { put(x % 6, status, value); });
+    partials.add({"KBBB", 41, -75, 0}, {0, 0, 16, 16}, codes,
+                 [&](int, int y, int, auto& status, float& value) { put(y % 6, status, value); });
+    MosaicOptions options{.moment = Moment::azsh, .overlap = default_overlap(Moment::azsh)};
+    EXPECT_EQ(options.overlap, Overlap::maximum);
+    const auto made = merge(domain, partials.all(), options);
+    ASSERT_TRUE(made) << made.error().message;
+    const auto view = made->cells.view();
+    EXPECT_EQ(view.value(weak, strong, 0), 20);
+    EXPECT_EQ(view.value(weak, weak, 0), -12);
+    for (const int other : {unseen, nothing, folded, unsure})
+        EXPECT_EQ(view.value(weak, other, 0), -12) << other;
+    for (const int other : {unseen, nothing, folded})
+        EXPECT_EQ(view.status(other, unsure, 0), CellStatus::ambiguous) << other;
+    EXPECT_EQ(view.status(folded, nothing, 0), CellStatus::no_echo);
+    options.overlap = Overlap::mean;
+    EXPECT_EQ(merge(domain, partials.all(), options).error().message,
+              "AZSH of different sites cannot be mixed (each measures along its own beams); use "
+              "the overlap rule maximum, not mean");
+    EXPECT_EQ(default_overlap(Moment::divg), Overlap::nearest);
+}
+
 // Two radars see one smooth field, but the second radar is 2 dB too strong. Where the second
 // radar's window ends, the second radar's weight is at most 0.034, which is half the weight of the
 // first radar, because the first radar is 140 km nearer.

@@ -21,8 +21,9 @@
 //   maximum            The largest value if there is any; else no echo if any site sees no echo;
 //                      else range folded.
 //   nearest            The state and the value of the nearest site that sees the cell. If two sites
-//                      are equally near, the first by name counts. VEL (velocities toward different
-//                      radars) and PHI (each radar's own offset) allow no other rule.
+//                      are equally near, the first by name counts. Velocities, toward different
+//                      radars, and PHI, each radar's own offset, allow no other rule. AZSH also
+//                      allows the maximum, in which ambiguous ranks between value and no echo.
 // A cell that no site sees is not seen. With a single site, every cell is as in its partial.
 //
 // Units     Meters for distances; values are in the unit of the moment.
@@ -66,8 +67,8 @@ inline constexpr auto overlap_facts = std::to_array<OverlapFacts>({
 // Returns "mean", "maximum", "nearest" or "distance-weighted".
 [[nodiscard]] std::string_view overlap_name(Overlap overlap);
 [[nodiscard]] std::optional<Overlap> overlap_from_name(std::string_view name);
-// Returns the default for a moment: nearest for moments whose values must not be mixed between
-// sites (VEL and PHI), else distance_weighted.
+// Returns the default for a moment: maximum for AZSH, nearest for other moments whose values must
+// not be mixed between sites, else distance_weighted.
 [[nodiscard]] Overlap default_overlap(level2::Moment moment);
 
 struct MosaicOptions {
