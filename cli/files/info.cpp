@@ -1,6 +1,5 @@
 // stormcellar info FILE... [--json] [--to OUT.nc]: decodes a Level II file and describes it.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -33,7 +32,8 @@ struct InfoOptions {
     std::string to;   // CfRadial file to write; empty: none
     int volume = 0;   // number in the file, from 1; 0: its only volume
     bool own_ranges = false;
-    std::string dealias = "off";
+    std::string dealias;               // empty: not typed
+    std::vector<std::string> derived;  // names of moments
     SiteOptions site;
 };
 
@@ -196,16 +196,42 @@ Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& f
     return number - 1;
 }
 
-Status write_chosen(const InfoOptions& options, const InputFile& file, level2::Decoded decoded) {
+struct Wish {
+    std::vector<level2::Moment> moments;  // empty: only those of the radar
+    retrieve::DerivedOptions how;
+};
+
+// Reads --moment and --dealias. The dealiased velocity is written with any derived moment.
+Result<Wish> wish_of(const InfoOptions& options) {
+    Wish wish;
+    for (const std::string& name : options.derived) {
+        const auto moment = level2::moment_from_name(name);
+        if (!moment || !level2::facts_of(*moment).is_derived)
+            return fail(ErrorCode::bad_argument,
+                        "--moment {}: it names moments to derive, such as AZSH or DIVG; those of "
+                        "the radar are always written",
+                        printable(name));
+        wish.moments.push_back(*moment);
+    }
+    if (options.dealias.empty()) return wish;
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "--dealias {}", rung.error().message);
+    wish.how.dealiasing = *rung;
+    if (wish.moments.empty() && *rung != retrieve::Dealiasing::off)
+        wish.moments = {level2::Moment::veld};
+    return wish;
+}
+
+Status write_chosen(const InfoOptions& options, const InputFile& file, level2::Decoded decoded) {
+    const auto wish = wish_of(options);
+    if (!wish) return pass_on(wish);
     const level2::DecodeReport report = decoded.report;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     const auto chosen = chosen_volume(options, file, volumes.size());
     if (!chosen) return pass_on(chosen);
-    if (*rung != retrieve::Dealiasing::off) {
-        const auto added = retrieve::add_derived_moments(
-            volumes[*chosen], std::array{level2::Moment::veld}, retrieve::DerivedOptions{*rung});
+    if (!wish->moments.empty()) {
+        const auto added =
+            retrieve::add_derived_moments(volumes[*chosen], wish->moments, wish->how);
         if (!added) return fail(added.error().code, "{}: {}", file.label, added.error().message);
     }
     auto output = OutputFile::open(options.to);
@@ -322,7 +348,11 @@ Run set_up_info(CLI::App& info) {
     info.add_option("--dealias", options->dealias,
                     fmt::format("Also write the dealiased velocity, VEL_dealiased: {}",
                                 retrieve::dealiasing_names()))
-        ->capture_default_str()
+        ->default_str("off")
+        ->needs(to);
+    info.add_option("--moment", options->derived,
+                    "Also write moments that are derived from velocities: VELD, SRV, AZSH, DIVG")
+        ->delimiter(',')
         ->needs(to);
     add_site_options(info, options->site);
     info.add_option("--threads", options->threads,

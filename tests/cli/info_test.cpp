@@ -109,23 +109,30 @@ TEST_F(InfoTest, WritesTheDealiasedVelocityIfAsked) {
     STORMCELLAR_NEED_DATA();
     const auto file = testing::real_file("volumes/KTLX19990503_235621.gz");
     const std::string to = directory_ / "x.nc";
-    const auto has_field = [&](const Words& arguments) {
+    const auto has_field = [&](const Words& arguments,
+                               std::string_view name = "VEL_dealiased_status") {
         const ProgramResult ran = run(with({"info", file, "--to", to}, arguments));
         EXPECT_EQ(ran.status, 0) << ran.err;
         const auto bytes = *read_file(to);
         const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         EXPECT_NE(text.find("VEL_status"), std::string::npos);
-        return text.find("VEL_dealiased_status") != std::string::npos;
+        return text.find(name) != std::string::npos;
     };
     EXPECT_FALSE(has_field({}));
     EXPECT_FALSE(has_field({"--dealias", "off"}));
     EXPECT_TRUE(has_field({"--dealias", "region"}));
+    EXPECT_FALSE(has_field({"--dealias", "region"}, "AZSHEAR"));
+    for (const char* field : {"AZSHEAR_status", "DIVERGENCE_status", "VEL_dealiased_status"})
+        EXPECT_TRUE(has_field({"--moment", "AZSH,DIVG"}, field)) << field;
     const ProgramResult unknown = info({file, "--to", to, "--dealias", "strong"});
     EXPECT_EQ(unknown.status, 2);
     EXPECT_NE(unknown.err.find("it must be off, auto, profile, region or anchored"),
               std::string::npos)
         << unknown.err;
     EXPECT_EQ(info({file, "--dealias", "region"}).status, 2) << "the option needs --to";
+    const ProgramResult measured = info({file, "--to", to, "--moment", "AZSH,REF"});
+    EXPECT_EQ(measured.status, 2);
+    EXPECT_NE(measured.err.find("--moment REF: it names moments to derive"), std::string::npos);
 }
 
 TEST_F(InfoTest, AsksWhichOfSeveralVolumesToWrite) {
