@@ -92,6 +92,10 @@ TEST(ApiSweeps, GatesOfADerivedMomentComeOrAReasonDoes) {
     const std::string sweep = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps/1/";
     const Answer dealiased = doors.get(sweep + "VELD");
     EXPECT_EQ(dealiased.status, 200U) << body_of(dealiased);
+    for (const char* moment : {"AZSH", "DIVG"}) {
+        const Answer shear = doors.get(sweep + moment);
+        EXPECT_EQ(shear.status, 200U) << body_of(shear);
+    }
     const Answer relative = doors.get(sweep + "SRV");
     EXPECT_EQ(relative.status, 404U);
     EXPECT_THAT(body_of(relative), ::testing::HasSubstr("gives no storm motion: the highest wind"));
