@@ -39,7 +39,7 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& s
     Progress progress("frames", frames.size(), !options.quiet);
     const auto cameras = cameras_of(options, shown, grids.frames_there, frames.size());
     if (!cameras) return pass_on(cameras);
-    Drawing drawing{shown.scene, {}, {}, {}};
+    Drawing drawing{shown.scene, {}, {}, {}, {}};
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop) return {};
         drawing.scene.camera = (*cameras)[i];

@@ -64,13 +64,21 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
     if (!grid) return skip(grid.error());
     const auto opened = steady_now();
-    auto facts = frame_facts_of(options.domain, grid->description(), options.scene.time_zone);
-    facts.interpolated = grid->made != nullptr && options.time_method != "nearest";
     const int threads = render::thread_count(options.scene);
+    const bool is_over_time = render::facts_of(drawing.scene.product).is_over_time;
+    if (is_over_time) {
+        const Status added = drawing.track.add(grid->view(), grid->description(), threads);
+        if (!added) return skip(added.error());
+    }
+    auto facts = frame_facts_of(options.domain,
+                                is_over_time ? drawing.track.description() : grid->description(),
+                                options.scene.time_zone);
+    facts.interpolated = grid->made != nullptr && options.time_method != "nearest";
     const auto render = [&] {
-        return render::render_frame(grid->view(), facts, drawing.scene, threads, &drawing.cache);
+        return render::render_frame(is_over_time ? drawing.track.view() : grid->view(), facts,
+                                    drawing.scene, threads, &drawing.cache);
     };
-    auto picture = options.kept != nullptr && frame.stored
+    auto picture = options.kept != nullptr && frame.stored && !is_over_time
                        ? options.kept->frame(frame.stored->path, drawing.scene, render)
                        : render();
     report.render_s += seconds_since(opened);

@@ -6,6 +6,7 @@
 #include "cli/loop/loop_grids.h"
 #include "cli/loop/loop_options.h"
 #include "cli/loop/loop_report.h"
+#include "cli/picture/rotation_track.h"
 #include "render/frame/frame_cache.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
@@ -20,6 +21,7 @@ struct Drawing {
     // The last grid that was made between volumes, and its time.
     std::optional<pipeline::MosaicFrame> made;
     UtcTime made_for{};
+    RotationTrack track;  // of the frames so far, for a product over time
 };
 
 // Draws one frame. If its grid is damaged or cannot be made, returns none and adds the reason to

@@ -59,7 +59,7 @@ void print_report(const LoopOptions& options, const render::Scene& scene, const 
     nlohmann::json document{{"outputs", options.outputs},
                             {"domain", options.domain},
                             {"product", options.scene.product},
-                            {"moment", options.scene.moment},
+                            {"moment", render::moment_asked(options.scene)},
                             {"from", format_utc(report.from)},
                             {"to", format_utc(report.to)},
                             {"frames", report.frames},

@@ -26,7 +26,7 @@ void report_frame(const FrameOptions& options, const render::Scene& scene,
     json["domain"] = options.domain;
     json["time"] = format_utc(grid.time);
     json["product"] = options.scene.product;
-    json["moment"] = options.scene.moment;
+    json["moment"] = render::moment_asked(options.scene);
     json["width"] = scene.width;
     json["height"] = scene.height;
     json["partial"] = grid.provenance.partial;

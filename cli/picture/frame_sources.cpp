@@ -162,11 +162,13 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
+    const render::ProductFacts& product = render::facts_of(scene.product);
     FrameGrids grids;
-    if (render::facts_of(scene.product).is_of_sweep) {
-        auto sweep = sweep_of_file(options.grid, scene);
-        if (!sweep) return pass_on(sweep);
-        grids.shown = std::move(*sweep);
+    if (product.is_of_sweep || product.is_over_time) {
+        auto made = product.is_of_sweep ? sweep_of_file(options.grid, scene)
+                                        : PictureGrid::make_track(options.grid);
+        if (!made) return pass_on(made);
+        grids.shown = std::move(*made);
     } else {
         auto made = made_grids(options.grid, options.rotation);
         if (!made) return made;
@@ -203,6 +205,7 @@ Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& sce
     if (!options.grid.files.empty()) return grid_of_files(options, scene);
     if (Status fits = check_stored_derivation(options.scene, scene.product); !fits)
         return pass_on(fits);
+    if (Status fits = render::check_single_grid(scene.product); !fits) return pass_on(fits);
     if (!is_of_sweep) return stored_grid(options, scene.moment);
     auto sweep = stored_sweep(options, scene);
     if (!sweep) return pass_on(sweep);

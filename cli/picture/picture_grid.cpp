@@ -1,11 +1,13 @@
 #include "cli/picture/picture_grid.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
 #include "cli/grid/grid_files.h"
+#include "cli/picture/rotation_track.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/gridder.h"
 
@@ -59,7 +61,7 @@ Result<PictureGrid> PictureGrid::open(const std::filesystem::path& file) {
 }
 
 void take_moment(const render::SceneOptions& scene, GridOptions& grid) {
-    grid.moment = scene.moment;
+    grid.moment = render::moment_asked(scene);
     const bool is_off = scene.dealias == retrieve::dealiasing_name(retrieve::Dealiasing::off);
     grid.dealias = is_off ? "" : scene.dealias;
     const bool is_automatic = scene.storm_motion == retrieve::automatic_motion;
@@ -101,6 +103,28 @@ Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
     }
     made.front().made_->volumes = std::move(volumes);
     return made;
+}
+
+Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {
+    std::vector<PictureGrid> grids;
+    for (const std::string& file : options.files) {
+        GridOptions one = options;
+        one.files = {file};
+        auto made = make(std::move(one));
+        if (!made) return pass_on(made);
+        grids.push_back(std::move(*made));
+    }
+    std::ranges::stable_sort(grids, {},
+                             [](const PictureGrid& grid) { return grid.description().time; });
+    RotationTrack track;
+    for (const PictureGrid& grid : grids) {
+        const Status added = track.add(grid.view(), grid.description(), options.threads);
+        if (!added) return pass_on(added);
+    }
+    Made& newest = *grids.back().made_;
+    newest.description = track.description();
+    newest.bricks = track.take_bricks();
+    return std::move(grids.back());
 }
 
 Result<PictureGrid> PictureGrid::of_sweep(SweptVolume volume, const render::Scene& scene,

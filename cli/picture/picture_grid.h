@@ -41,6 +41,9 @@ class PictureGrid {
     // Decodes the files once and makes a grid of each moment of a list such as "REF,VEL". Returns
     // the grids in the order of the list. The first grid owns the volumes.
     [[nodiscard]] static Result<std::vector<PictureGrid>> make_each(GridOptions options);
+    // Grids each file, and returns the largest values of each cell (RotationTrack). Errors: those
+    // of make() and of RotationTrack::add().
+    [[nodiscard]] static Result<PictureGrid> make_track(const GridOptions& options);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
                                                       const render::Scene& scene,

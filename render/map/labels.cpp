@@ -178,6 +178,11 @@ std::string product_line(const Scene& scene, const FrameFacts& facts) {
     std::string line = product_title(scene);
     if (facts.storm_motion && scene.moment == level2::Moment::srv)
         line += ", " + motion_text(*facts.storm_motion, scene.units);
+    if (!facts.dealiasing.empty()) line += ", dealiasing " + facts.dealiasing;
+    if (facts.since) {
+        const std::string since = format_utc(*facts.since);
+        line += fmt::format(", since {} {} UTC", since.substr(0, 10), since.substr(11, 5));
+    }
     if (!facts.quality.empty()) line += ", " + facts.quality;
     return line;
 }

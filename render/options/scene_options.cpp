@@ -112,6 +112,17 @@ Status check_storm_motion(level2::Moment moment, const SceneOptions& options) {
                 spelled(storm_motion_option(), options), level2::moment_name(moment));
 }
 
+constexpr std::string_view track_words = "largest values since ";
+
+std::optional<UtcTime> track_start(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        if (!note.starts_with(track_words)) continue;
+        const auto time = parse_utc(note.substr(track_words.size()), UtcTime{});
+        if (time) return *time;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<Scene> scene_of(const SceneOptions& options) {
@@ -122,7 +133,7 @@ Result<Scene> scene_of(const SceneOptions& options) {
     if (auto ranges = check_ranges(options); !ranges) return pass_on(ranges);
     Scene scene = options.scene;
     scene.product = *product;
-    const auto moment = moment_named(options.moment);
+    const auto moment = moment_named(moment_asked(options));
     if (!moment) return fail(ErrorCode::bad_argument, "the moment {}", moment.error().message);
     const auto shown = dealiased_moment(*moment, options);
     if (!shown) return pass_on(shown);
@@ -164,6 +175,14 @@ Result<Scene> scene_of(const SceneOptions& options) {
     return scene;
 }
 
+std::string moment_asked(const SceneOptions& options) {
+    const auto product = product_from_name(options.product);
+    const auto only = product ? facts_of(*product).only_moment : std::nullopt;
+    const bool is_given = contains(options.typed, moment_option()) ||
+                          contains(options.in_file, moment_option()) || !options.panels.empty();
+    return only && !is_given ? std::string(level2::moment_name(*only)) : options.moment;
+}
+
 Status check_stored_derivation(const SceneOptions& options, Product product) {
     if (facts_of(product).is_of_sweep) return {};
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
@@ -186,6 +205,17 @@ Status check_stored_derivation(const SceneOptions& options, Product product) {
                 "{} is for frames of files and for a ppi; kept grids have the motion of their own "
                 "wind profile",
                 spelled(storm_motion_option(), options));
+}
+
+Status check_single_grid(Product product) {
+    if (!facts_of(product).is_over_time) return {};
+    return fail(ErrorCode::bad_argument,
+                "{} are made from several volumes: give several files, or draw a loop",
+                product_name(product));
+}
+
+std::string track_note(UtcTime since) {
+    return fmt::format("{}{}", track_words, format_utc(since));
 }
 
 retrieve::DerivedOptions derived_options_of(const SceneOptions& options) {
@@ -211,6 +241,8 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
     if (description.moment == level2::Moment::srv)
         facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
     facts.quality = retrieve::quality_in_notes(description.provenance.notes);
+    facts.since = track_start(description.provenance.notes);
+    facts.dealiasing = retrieve::dealiasing_in_notes(description.provenance.notes);
     const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
     const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
     if (!local.ends_with(" UTC")) facts.local_time = local;

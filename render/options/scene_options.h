@@ -67,11 +67,21 @@ struct LoopChoices {
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
+// Returns the name of the moment, which is that of the product if it is made of one moment alone
+// and no moment is given.
+[[nodiscard]] std::string moment_asked(const SceneOptions& options);
+
 // Refuses a quality, and a rung of dealiasing and a storm motion other than `auto`, for a picture
 // of kept grids, whose moments are derived already. A ppi is made from raw files, so it can have
 // any of them.
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Status check_stored_derivation(const SceneOptions& options, Product product);
+
+// Refuses a product over time for a picture of one kept grid. Errors: bad_argument.
+[[nodiscard]] Status check_single_grid(Product product);
+
+// Returns the note of a grid that has the largest values since a time (FrameFacts::since).
+[[nodiscard]] std::string track_note(UtcTime since);
 
 // Returns how the moments of a picture are derived that come from raw files. The options must be
 // those of a valid scene.

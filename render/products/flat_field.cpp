@@ -268,6 +268,44 @@ FlatField maximum_height_field(const BrickView& view, double threshold_dbz, int 
                            });
 }
 
+Result<FlatField> layer_maximum_field(const BrickView& view, const HeightLayer& layer,
+                                      double radar_m, int threads) {
+    const auto& levels_m = view.spec->levels_m;
+    const auto first = std::ranges::lower_bound(levels_m, radar_m + layer.bottom_m);
+    const auto last = std::ranges::lower_bound(levels_m, radar_m + layer.top_m);
+    if (first == last)
+        return fail(ErrorCode::bad_argument,
+                    "the grid has no level from {:.0f} to {:.0f} m above the radar, which is at "
+                    "{:.0f} m above sea level",
+                    layer.bottom_m, layer.top_m, radar_m);
+    const auto from = first - levels_m.begin(), to = last - levels_m.begin();
+    return for_each_column(
+        view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
+            const ColumnCells inside{{cells.status.begin() + from, cells.status.begin() + to},
+                                     {cells.values.begin() + from, cells.values.begin() + to}};
+            std::optional<float> largest;
+            for (std::size_t i = 0; i < inside.status.size(); ++i)
+                if (inside.status[i] == CellStatus::value)
+                    largest = std::max(inside.values[i], largest.value_or(inside.values[i]));
+            if (!largest) return out.put(place, state_without_value(inside), 0);
+            out.put(place, CellStatus::value, *largest);
+        });
+}
+
+namespace {
+
+Result<FlatField> rotation_field(const BrickView& view, const FrameFacts& facts, const Scene& scene,
+                                 int threads) {
+    if (facts.sites.size() != 1)
+        return fail(ErrorCode::bad_argument,
+                    "{} is a layer above one radar, and this grid has {} radars",
+                    product_name(scene.product), facts.sites.size());
+    return layer_maximum_field(view, *facts_of(scene.product).layer, radar_height_m(facts),
+                               threads);
+}
+
+}  // namespace
+
 double radar_height_m(const FrameFacts& facts) {
     if (facts.sites.empty()) return 0;
     double sum_m = 0;
@@ -321,6 +359,10 @@ Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, cons
             return lowest_seen_field(view, threads);
         case Product::highest_seen:
             return highest_seen_field(view, threads);
+        case Product::rotation:
+        case Product::rotation_aloft:
+        case Product::rotation_tracks:
+            return rotation_field(view, facts, scene, threads);
         case Product::volume:
         case Product::section:
             break;

@@ -26,9 +26,14 @@
 //               (sweep_field.h).
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
-// For products of reflectivity, a column without a value is range folded if any cell is range
-// folded, because the echo behind it is unknown; else no echo (below the threshold) if any cell was
-// seen; else not seen.
+//   rotation, rotation_aloft   The largest value of the cells whose height above the radar is in
+//   the
+//                              product's layer.
+//   rotation_tracks            As rotation, of a grid that has the largest value of each cell over
+//                              time.
+// For products of reflectivity or shear, a column without a value is range folded if any cell is
+// range folded, because the echo behind it is unknown; else no echo (below the threshold) if any
+// cell was seen; else not seen. Of shear, such a column may also be ambiguous.
 //
 // Units     Heights are above mean sea level.
 // Threads   Pure functions; the same bits for any number of threads.
@@ -81,6 +86,11 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] FlatField maximum_height_field(const grid::BrickView& view, double threshold_dbz,
                                              int threads);
 
+// `radar_m` is the height of the radar. Errors: bad_argument if the grid has no level in the layer.
+[[nodiscard]] Result<FlatField> layer_maximum_field(const grid::BrickView& view,
+                                                    const HeightLayer& layer, double radar_m,
+                                                    int threads);
+
 [[nodiscard]] FlatField lowest_seen_field(const grid::BrickView& view, int threads);
 [[nodiscard]] FlatField highest_seen_field(const grid::BrickView& view, int threads);
 
@@ -88,8 +98,9 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
 // Returns the field of the scene's product, which must be a map. The scene must be valid for the
-// view and its facts. Only a composite uses `columns`. Errors: those of cappi_field(); internal for
-// a product that is not a map.
+// view and its facts. Only a composite uses `columns`. Errors: those of cappi_field() and
+// layer_maximum_field(); bad_argument for a layer above several radars; internal for a product that
+// is not a map.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);

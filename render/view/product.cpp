@@ -55,6 +55,25 @@ std::string highest_seen_title(const Scene& /*scene*/) {
     return "Highest height seen";
 }
 
+// The layers of MRMS (Smith et al. 2016), above the radar instead of the ground.
+constexpr HeightLayer low_layer{0, 2000}, middle_layer{3000, 6000};
+
+std::string title_of_layer(std::string_view what, const HeightLayer& layer, const Units& units) {
+    const UnitFacts& unit = facts_of(units.height);
+    return fmt::format("{}, largest azimuthal shear {} to {} {} above the radar", what,
+                       number_text(layer.bottom_m / unit.si), number_text(layer.top_m / unit.si),
+                       unit.symbol);
+}
+std::string rotation_title(const Scene& scene) {
+    return title_of_layer("Rotation", low_layer, scene.units);
+}
+std::string rotation_aloft_title(const Scene& scene) {
+    return title_of_layer("Rotation aloft", middle_layer, scene.units);
+}
+std::string rotation_tracks_title(const Scene& scene) {
+    return title_of_layer("Rotation tracks", low_layer, scene.units);
+}
+
 constexpr auto product_facts = std::to_array<ProductFacts>({
     {.product = Product::volume, .name = "volume", .view = View::volume, .title = volume_title},
     {.product = Product::composite,
@@ -74,7 +93,7 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .title = echo_top_title,
      .unit = "km",
      .colors = echo_top_colors,
-     .needs_reflectivity = true,
+     .only_moment = level2::Moment::ref,
      .threshold_dbz = &Scene::echo_top_dbz,
      .may_be_higher = true,
      .is_smooth = true},
@@ -83,14 +102,14 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .title = vil_title,
      .unit = "kg/m2",
      .colors = vil_colors,
-     .needs_reflectivity = true,
+     .only_moment = level2::Moment::ref,
      .is_smooth = true},
     {.product = Product::vil_density,
      .name = "vil-density",
      .title = vil_density_title,
      .unit = "g/m3",
      .colors = vil_density_colors,
-     .needs_reflectivity = true,
+     .only_moment = level2::Moment::ref,
      .threshold_dbz = &Scene::echo_top_dbz,
      .is_smooth = true},
     {.product = Product::maximum_height,
@@ -99,7 +118,7 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .title = maximum_height_title,
      .unit = "km",
      .colors = height_colors,
-     .needs_reflectivity = true,
+     .only_moment = level2::Moment::ref,
      .threshold_dbz = &Scene::echo_top_dbz,
      .is_smooth = true},
     {.product = Product::lowest_seen,
@@ -114,6 +133,28 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .unit = "km",
      .colors = height_colors,
      .has_echo_states = false},
+    {.product = Product::rotation,
+     .name = "rotation",
+     .aside = "largest azimuthal shear 0 to 2 km above the radar",
+     .title = rotation_title,
+     .only_moment = level2::Moment::azsh,
+     .is_smooth = true,
+     .layer = low_layer},
+    {.product = Product::rotation_aloft,
+     .name = "rotation-aloft",
+     .aside = "3 to 6 km",
+     .title = rotation_aloft_title,
+     .only_moment = level2::Moment::azsh,
+     .is_smooth = true,
+     .layer = middle_layer},
+    {.product = Product::rotation_tracks,
+     .name = "rotation-tracks",
+     .aside = "rotation, the largest of several volumes",
+     .title = rotation_tracks_title,
+     .only_moment = level2::Moment::azsh,
+     .is_smooth = true,
+     .layer = low_layer,
+     .is_over_time = true},
 });
 static_assert(is_in_order(product_facts, &ProductFacts::product));
 

@@ -44,9 +44,12 @@ Status check_section(const Scene& scene) {
 }
 
 Status check_colors(const Scene& scene) {
-    if (facts_of(scene.product).needs_reflectivity && scene.moment != level2::Moment::ref) {
-        return fail(ErrorCode::bad_argument, "{} is made from reflectivity (REF), not from {}",
-                    product_name(scene.product), level2::moment_name(scene.moment));
+    const auto only = facts_of(scene.product).only_moment;
+    if (only && scene.moment != *only) {
+        return fail(
+            ErrorCode::bad_argument, "{} is made from {}, not from {}", product_name(scene.product),
+            *only == level2::Moment::ref ? "reflectivity (REF)" : level2::moment_name(*only),
+            level2::moment_name(scene.moment));
     }
     if (!scene.colors) return {};
     if (auto valid = validate(*scene.colors); !valid) {

@@ -125,6 +125,24 @@ level2::Sweep velocities_of(const level2::Sweep& sweep) {
     return copy;
 }
 
+constexpr std::string_view shear_words = "shear of velocities dealiased by the rung ";
+
+// Returns the text after these words, up to a comma, if all notes with them agree.
+std::optional<std::string> text_in_notes(std::span<const std::string> notes,
+                                         std::string_view words) {
+    std::optional<std::string> text;
+    for (const std::string& note : notes) {
+        const std::size_t at = note.find(words);
+        const bool is_at_start = at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "));
+        if (!is_at_start) continue;
+        const std::size_t from = at + words.size();
+        std::string found = note.substr(from, note.find(',', from) - from);
+        if (text && *text != found) return std::nullopt;
+        text = std::move(found);
+    }
+    return text;
+}
+
 }  // namespace
 
 Result<MotionChoice> motion_choice_from(std::string_view text) {
@@ -158,6 +176,9 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
     derived.dealiased = std::move(*dealiased);
     const auto shear = add_shear_moments(volume, derived.dealiased, wanted);
     if (!shear) return pass_on(shear);
+    if (*shear)
+        derived.notes.push_back(
+            fmt::format("{}{}", shear_words, dealiasing_name(derived.dealiased.rung)));
     if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
     auto notes = add_storm_relative(volume, derived.dealiased, options.motion);
     if (!notes) return pass_on(notes);
@@ -205,27 +226,24 @@ level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
 }
 
 std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {
-    std::optional<std::string> text;
-    for (const std::string& note : notes) {
-        const std::size_t at = note.find(motion_words);
-        const bool is_at_start = at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "));
-        if (!is_at_start) continue;
-        const std::size_t from = at + motion_words.size();
-        std::string motion = note.substr(from, note.find(',', from) - from);
-        if (text && *text != motion) return std::nullopt;
-        text = std::move(motion);
-    }
+    const auto text = text_in_notes(notes, motion_words);
     if (!text) return std::nullopt;
     const auto motion = parse_motion(*text);
     return motion ? std::optional{*motion} : std::nullopt;
 }
 
 std::string quality_in_notes(std::span<const std::string> notes) {
+    if (const auto text = text_in_notes(notes, quality_words)) return quality_words + *text;
+    // The sites of a mosaic have different shares.
     for (const std::string& note : notes) {
         const std::size_t at = note.find(quality_words);
-        if (at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "))) return note;
+        if (at != note.npos) return note.substr(at, note.find(';', at) - at);
     }
     return {};
+}
+
+std::string dealiasing_in_notes(std::span<const std::string> notes) {
+    return text_in_notes(notes, shear_words).value_or("");
 }
 
 }  // namespace stormcellar::retrieve

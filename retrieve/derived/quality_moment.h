@@ -22,6 +22,6 @@ void add_quality_moment(level2::Volume& volume);
 [[nodiscard]] std::string keep_weather(level2::Volume& volume, double least);
 
 // Begins the note.
-inline constexpr std::string_view quality_words = "probability of weather at least ";
+inline const std::string quality_words = "probability of weather at least ";
 
 }  // namespace stormcellar::retrieve

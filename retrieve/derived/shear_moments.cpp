@@ -46,12 +46,12 @@ SweepMoment shear_moment(const SweepMoment& dealiased, const SweepShear& shear, 
 
 }  // namespace
 
-Result<void> add_shear_moments(level2::Volume& volume, const Dealiased& dealiased,
+Result<bool> add_shear_moments(level2::Volume& volume, const Dealiased& dealiased,
                                std::span<const Moment> wanted) {
     std::vector<Moment> moments;
     for (const Moment moment : {Moment::azsh, Moment::divg})
         if (std::ranges::find(wanted, moment) != wanted.end()) moments.push_back(moment);
-    if (moments.empty()) return {};
+    if (moments.empty()) return false;
     for (const SweepFolds& folds : dealiased.sweeps) {
         const auto shear = sweep_shear(volume, folds);
         if (!shear) return pass_on(shear);
@@ -70,7 +70,7 @@ Result<void> add_shear_moments(level2::Volume& volume, const Dealiased& dealiase
             made.push_back(shear_moment(*from, *shear, moment));
         std::ranges::move(made, std::back_inserter(all));
     }
-    return {};
+    return true;
 }
 
 }  // namespace stormcellar::retrieve

@@ -14,8 +14,9 @@
 namespace stormcellar::retrieve {
 
 // Adds those of the wanted moments that are shear, at the end of each sweep with VELD. `dealiased`
-// has the fold numbers of this volume. Returns the errors of sweep_shear().
-[[nodiscard]] Result<void> add_shear_moments(level2::Volume& volume, const Dealiased& dealiased,
+// has the fold numbers of this volume. Returns whether any was wanted, or the errors of
+// sweep_shear().
+[[nodiscard]] Result<bool> add_shear_moments(level2::Volume& volume, const Dealiased& dealiased,
                                              std::span<const level2::Moment> wanted);
 
 }  // namespace stormcellar::retrieve

@@ -90,6 +90,13 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
                                      "DIVG or POW"));
 }
 
+TEST(SceneOptions, AProductOfOneMomentChoosesIt) {
+    EXPECT_EQ(scene_of(parse("--product rotation"))->moment, level2::Moment::azsh);
+    EXPECT_EQ(scene_of(parse("--product vil"))->moment, level2::Moment::ref);
+    EXPECT_EQ(scene_of(parse("--product rotation --moment REF")).error().message,
+              "rotation is made from AZSH, not from REF");
+}
+
 // 2026-11-22: `--light shadow` with a composite was ignored without a message.
 TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
     const std::string all = "volume composite cappi section echotop vil lowest-seen highest-seen";

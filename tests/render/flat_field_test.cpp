@@ -278,6 +278,32 @@ TEST(MaximumHeight, IsThatOfTheLowestOfTheLargestCells) {
     EXPECT_FLOAT_EQ(field.values[3], 1);
 }
 
+// With the radar at 370 m, the levels of the layer from 0 to 2 km are those of 500 to 2000 m.
+TEST(LayerMaximum, IsTheLargestOfTheCellsInTheLayer) {
+    const auto bricks = columns_of({{valued(-4), valued(-9), quiet, valued(-6), valued(30)},
+                                    {valued(2), unsure, valued(7), folded, valued(30)},
+                                    {quiet, quiet, unsure, quiet, valued(30)},
+                                    {unseen, unseen, folded, quiet, valued(30)},
+                                    repeated(unseen, 20)},
+                                   20, true);
+    const HeightLayer low{0, 2000};
+    const FlatField field = layer_maximum_field(bricks.view(), low, 370, 2).value();
+    EXPECT_FLOAT_EQ(field.values[0], -4) << "not the value farthest from zero";
+    EXPECT_FLOAT_EQ(field.values[1], 7);
+    EXPECT_EQ(field.status[2], CellStatus::ambiguous);
+    EXPECT_EQ(field.status[3], CellStatus::range_folded);
+    EXPECT_EQ(field.status[4], CellStatus::not_seen);
+    const FlatField higher = layer_maximum_field(bricks.view(), low, 500, 1).value();
+    EXPECT_FLOAT_EQ(higher.values[0], -4) << "the bottom belongs to the layer, the top does not";
+    EXPECT_FLOAT_EQ(layer_maximum_field(bricks.view(), low, 501, 1)->values[0], 30);
+    const auto none = layer_maximum_field(bricks.view(), low, 12'000, 1);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(none.error().message,
+              "the grid has no level from 0 to 2000 m above the radar, which is at 12000 m above "
+              "sea level");
+}
+
 TEST(HeightsSeen, AreThoseOfTheOutermostCellsSeen) {
     const auto bricks = columns_of({{unseen, unseen, quiet},
                                     {folded},

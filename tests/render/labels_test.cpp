@@ -238,6 +238,18 @@ TEST(Labels, SayTheMotionOfTheStormInTheUnitOfSpeeds) {
     EXPECT_THAT(texts_of(scene, facts), Contains(title));
 }
 
+TEST(Labels, SayHowVelocitiesWereDealiasedAndSinceWhen) {
+    Scene scene;
+    scene.product = Product::rotation_tracks;
+    scene.moment = level2::Moment::azsh;
+    FrameFacts facts = facts_for("KTLX", 1, false);
+    facts.dealiasing = "anchored";
+    facts.since = UtcTime{std::chrono::seconds{925'774'860}};
+    EXPECT_EQ(product_line(scene, facts),
+              "Rotation tracks, largest azimuthal shear 0 to 2 km above the radar, dealiasing "
+              "anchored, since 1999-05-03 23:41 UTC");
+}
+
 TEST(Labels, WhatOneSiteSeesOfADomainIsTheSitesPicture) {
     EXPECT_THAT(texts_of(Scene{}, facts_for("moore.KTLX", 1, false)),
                 ::testing::Contains("KTLX  Oklahoma City, OK  (moore)"));

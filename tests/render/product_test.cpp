@@ -112,5 +112,33 @@ TEST(MapField, IsTheScenesProduct) {
     EXPECT_FALSE(map_field(view, facts, scene, columns, 1));
 }
 
+TEST(MapField, OfRotationNeedsOneRadar) {
+    const auto bricks = bricks_of(
+        make_grid_of(small_spec(3, 20), [](int, int, int iz) { return valued(40 - 2 * iz); }));
+    const auto view = bricks.view();
+    FrameFacts facts{"KTLX", Moment::azsh, UtcTime{}, {{"KTLX", 35, -97, 370}}, false};
+    Scene scene = scene_of(Product::rotation, Moment::azsh);
+    EXPECT_TRUE(validate(scene));
+    EXPECT_EQ(map_field(view, facts, scene, {}, 1)->values[4], 40);
+    scene.product = Product::rotation_aloft;
+    EXPECT_EQ(map_field(view, facts, scene, {}, 1)->values[4], 28) << "at 3.5 km above sea level";
+    facts.sites.push_back({"KFDR", 34, -99, 400});
+    const auto refused = map_field(view, facts, scene, {}, 1);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "rotation-aloft is a layer above one radar, and this grid has 2 radars");
+    scene.moment = Moment::vel;
+    EXPECT_EQ(validate(scene).error().message, "rotation-aloft is made from AZSH, not from VEL");
+}
+
+TEST(ProductTitle, OfRotationSaysTheLayer) {
+    Scene scene = scene_of(Product::rotation, Moment::azsh);
+    EXPECT_EQ(product_title(scene), "Rotation, largest azimuthal shear 0 to 2 km above the radar");
+    scene.product = Product::rotation_aloft;
+    scene.units.height = Unit::kft;
+    EXPECT_EQ(product_title(scene),
+              "Rotation aloft, largest azimuthal shear 9.84 to 19.7 kft above the radar");
+}
+
 }  // namespace
 }  // namespace stormcellar::render

@@ -32,7 +32,10 @@ struct FrameFacts {
     std::optional<retrieve::Motion> storm_motion = {};
     // The echo that was left out because it is probably no weather (quality_in_notes()), or empty.
     std::string quality = {};
-    bool interpolated = false;  // the grid was interpolated between volumes, as requested
+    // How the velocities were dealiased whose shear the grid shows; empty if the grid does not say.
+    std::string dealiasing = {};
+    std::optional<UtcTime> since = {};  // the first volume of a product over time
+    bool interpolated = false;          // the grid was interpolated between volumes, as requested
 };
 
 }  // namespace stormcellar::render

@@ -7,11 +7,13 @@
 // Threads   Constants and pure functions.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "stormcellar/base/result.h"
+#include "stormcellar/level2/moment.h"
 
 namespace stormcellar::render {
 
@@ -30,7 +32,10 @@ enum class Product {
     vil_density,
     maximum_height,
     lowest_seen,
-    highest_seen
+    highest_seen,
+    rotation,
+    rotation_aloft,
+    rotation_tracks
 };
 
 // The kind of picture that a product makes.
@@ -40,15 +45,20 @@ enum class View {
     section,  // a vertical section between two places
 };
 
+// Heights above the radar; the bottom belongs to the layer.
+struct HeightLayer {
+    double bottom_m = 0, top_m = 0;
+};
+
 struct ProductFacts {
     Product product = Product::volume;
     std::string_view name = {};   // on the command line and in scene files
     std::string_view aside = {};  // text that help adds to the name in brackets
     View view = View::map;
-    std::string (*title)(const Scene&) = nullptr;  // "Echo tops, 18.5 dBZ"
-    std::string_view unit = {};                    // empty: the moment's
-    const ColorTable& (*colors)() = nullptr;       // null: the moment's
-    bool needs_reflectivity = false;
+    std::string (*title)(const Scene&) = nullptr;    // "Echo tops, 18.5 dBZ"
+    std::string_view unit = {};                      // empty: the moment's
+    const ColorTable& (*colors)() = nullptr;         // null: the moment's
+    std::optional<level2::Moment> only_moment = {};  // the moment of which it is made; none: any
     // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
     bool may_be_higher = false;  // for tops: the picture marks where the true value may be larger
@@ -57,6 +67,10 @@ struct ProductFacts {
     bool is_smooth = false;  // true if the map may be drawn smoothly
     // True if the product draws a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
+    std::optional<HeightLayer> layer = {};  // of which the product shows the largest value
+    // True if the product shows the largest values of several volumes
+    // (cli/picture/frame_sources.h).
+    bool is_over_time = false;
 };
 
 [[nodiscard]] std::span<const ProductFacts> all_products();

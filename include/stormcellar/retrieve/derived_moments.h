@@ -70,7 +70,8 @@ struct DerivedOptions {
 
 struct Derived {
     Dealiased dealiased;
-    // Remarks for the provenance of grids. The motion of SRV is one of them (motion_in_notes()).
+    // Remarks for the provenance of grids: the motion of SRV (motion_in_notes()), and how the
+    // velocities of AZSH and DIVG were dealiased (dealiasing_in_notes()).
     std::vector<std::string> notes;
 };
 
@@ -103,10 +104,12 @@ struct DerivedVolume {
 // Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
 // or if the sites of a mosaic have different motions.
 [[nodiscard]] std::optional<Motion> motion_in_notes(std::span<const std::string> notes);
+// Returns the name of the rung in the same way; empty if there is none.
+[[nodiscard]] std::string dealiasing_in_notes(std::span<const std::string> notes);
 
 // Returns what notes of a grid's provenance say about gates that were left out because they are
-// probably no weather: "probability of weather at least 0.5; 12.3 % of the echo left out". Empty if
-// no note says so.
+// probably no weather: "probability of weather at least 0.5; 12.3 % of the echo left out", without
+// the share if the sites of a mosaic differ. Empty if no note says so.
 [[nodiscard]] std::string quality_in_notes(std::span<const std::string> notes);
 
 }  // namespace stormcellar::retrieve

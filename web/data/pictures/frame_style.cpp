@@ -66,6 +66,7 @@ Result<std::vector<render::PanelScene>> panels_of_frame(const FrameStyle& style,
     if (!scene) return pass_on(scene);
     if (Status fits = render::check_stored_derivation(style.options, scene->product); !fits)
         return pass_on(fits);
+    if (Status fits = render::check_single_grid(scene->product); !fits) return pass_on(fits);
     const level2::Moment moment = scene->moment;
     return std::vector<render::PanelScene>{{moment, std::move(*scene)}};
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_shown = 80;
 
 bool is_of_grids(const render::ProductFacts& facts) {
-    return facts.view == render::View::map && !facts.is_of_sweep;
+    return facts.view == render::View::map && !facts.is_of_sweep && !facts.is_over_time;
 }
 
 std::string names_of_products() {
@@ -28,7 +28,7 @@ std::string names_of_products() {
 
 std::string MapProduct::name() const {
     const render::ProductFacts& facts = render::facts_of(product);
-    if (facts.needs_reflectivity) return std::string(facts.name);
+    if (facts.only_moment) return std::string(facts.name);
     return fmt::format("{}.{}", facts.name, level2::moment_name(moment));
 }
 
@@ -41,7 +41,8 @@ Result<MapProduct> map_product_named(std::string_view name) {
                     "composite.VEL",
                     printable(name.substr(0, longest_shown)), names_of_products());
     }
-    MapProduct layer{*product, level2::Moment::ref};
+    const auto only = render::facts_of(*product).only_moment;
+    MapProduct layer{*product, only.value_or(level2::Moment::ref)};
     if (dot == std::string_view::npos) return layer;
     const auto moment = level2::moment_from_name(name.substr(dot + 1));
     if (!moment) {
@@ -50,9 +51,9 @@ Result<MapProduct> map_product_named(std::string_view name) {
                     level2::moment_names(", ", " or "));
     }
     layer.moment = *moment;
-    if (render::facts_of(*product).needs_reflectivity && layer.moment != level2::Moment::ref) {
-        return fail(ErrorCode::not_found, "{} is a map of REF alone",
-                    render::product_name(*product));
+    if (only && layer.moment != *only) {
+        return fail(ErrorCode::not_found, "{} is a map of {} alone", render::product_name(*product),
+                    level2::moment_name(*only));
     }
     return layer;
 }
@@ -62,7 +63,7 @@ std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& momen
     for (const render::ProductFacts& facts : render::all_products()) {
         if (!is_of_grids(facts)) continue;
         for (const level2::Moment moment : moments) {
-            if (facts.needs_reflectivity && moment != level2::Moment::ref) continue;
+            if (facts.only_moment.value_or(moment) != moment) continue;
             layers.push_back({facts.product, moment});
         }
     }

@@ -1,0 +1,37 @@
+// cli/picture/rotation_track.h -- the largest azimuthal shear of each cell over time.
+//
+// As in retrieve::add_to_track(), the volume that knows more of a cell decides: a value, else no
+// echo, else range folded or ambiguous, else not seen. Of two values the larger stays, so that
+// counterclockwise rotation leaves a track.
+//
+// Threads   One thread at a time; work is split over `threads`.
+#pragma once
+
+#include <optional>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
+
+namespace stormcellar::cli {
+
+class RotationTrack {
+  public:
+    // Adds a later volume. Errors: bad_argument if its grid differs in place, size or radar.
+    [[nodiscard]] Status add(const grid::BrickView& view, const cache::GridDescription& description,
+                             int threads);
+
+    // These need at least one volume. The description is that of the newest volume, with a note
+    // that gives the time of the first one (render::track_note()).
+    [[nodiscard]] grid::BrickView view() const { return bricks_->view(); }
+    [[nodiscard]] const cache::GridDescription& description() const { return description_; }
+    [[nodiscard]] grid::BrickGrid take_bricks() { return std::move(*bricks_); }
+
+  private:
+    grid::Grid largest_;
+    UtcTime since_;
+    cache::GridDescription description_;
+    std::optional<grid::BrickGrid> bricks_;
+};
+
+}  // namespace stormcellar::cli
