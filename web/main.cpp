@@ -1,4 +1,4 @@
-// stormcellar-web: the data server as a service. The text below describes its usage.
+// stormcellar-web: the data server as a service. The text below describes its command line.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -32,7 +32,7 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// Each connection, open grid and raw file takes a descriptor.
+// Connections, open grids and raw files each take a descriptor.
 constexpr std::uint64_t wanted_descriptors = 65'536;
 
 void reload(WebService& service, const std::filesystem::path& file) {
@@ -50,8 +50,8 @@ void reload(WebService& service, const std::filesystem::path& file) {
     }
 }
 
-// Warns if the drop directory cannot be read. Clients would learn only that a file cannot be read
-// now.
+// Warns if the drop directory cannot be read. Clients would otherwise only learn that a file cannot
+// be read now.
 void look_at_drop(const std::filesystem::path& drop) {
     if (drop.empty()) return;
     const auto names = names_beneath(drop, drop);
@@ -62,7 +62,7 @@ void look_at_drop(const std::filesystem::path& drop) {
         names.error().message);
 }
 
-// Does the work of one turn. If memory or threads run out, the server goes on unchanged.
+// Does the work of one turn. If memory or threads have run out, the server goes on unchanged.
 void take_turn(WebService& service, const std::filesystem::path& file, bool reloads) {
     try {
         if (reloads) {
@@ -108,7 +108,7 @@ int serve(const WebSetup& setup, const std::filesystem::path& file) {
 int run(const ServiceArguments& arguments) {
     Result<WebSetup> setup = load_web_setup(*arguments.config);
     if (!setup) return complain(program, setup.error());
-    // systemd sets STATE_DIRECTORY if the unit has a StateDirectory.
+    // systemd sets STATE_DIRECTORY if the unit names a StateDirectory.
     if (const char* state = std::getenv("STATE_DIRECTORY"); state != nullptr && *state == '/')
         setup->numbers = std::filesystem::path(state) / "times";
     if (!arguments.check) return serve(*setup, *arguments.config);

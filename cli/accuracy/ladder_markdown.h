@@ -8,7 +8,6 @@
 // timed. Figures have three significant digits, rounded up; percentages have two decimals; "-"
 // stands for a missing value. A ladder of pictures (cli/picture/picture_ladder.h) has the columns
 //   step | rung | time_s | color p99 (dE) | Pareto
-// p99 (dE) | Pareto.
 //
 // Threads   Pure: may be called from any thread.
 #pragma once

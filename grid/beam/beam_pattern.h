@@ -8,7 +8,6 @@
 // sweeps. So a point between two neighboring radials or sweeps gets weight from both. A point on
 // the axis of one gets weight from this one alone, unless its neighbors are nearer than the beam
 // width.
-// sweep counts alone, unless its neighbors are nearer than the beam width.
 //
 // Source    Probert-Jones (1962), who treats the main lobe as a Gaussian.
 // Accuracy  1e-6 (tests/grid/sweep_mixture_test.cpp).

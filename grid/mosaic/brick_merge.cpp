@@ -176,7 +176,6 @@ void BrickMerger<Code>::merge_mean(std::span<const BrickLayer> layers, std::size
 
 // Adds one layer to the sums of a column. Each state has a loop of its own, which is skipped if the
 // column lacks the state. In this loop, cells of other states add 0, so the loop needs no branches.
-// branches.
 //
 // The codes are copied to wider integers first. The compiler must assume that bytes alias any
 // object, so it would not vectorize a loop that writes sums while it reads bytes.

@@ -1,6 +1,8 @@
 // pipeline/ingest/open_archives.h -- the archives whose members are ingested a few at a time, in
-// turns. Inside the pipeline room only. Thread contract: any thread may use OpenArchives; one
-// thread may use an OpenArchive.
+// turns.
+//
+// Inside the pipeline room only. Thread contract: any thread may use OpenArchives; one thread may
+// use an OpenArchive.
 #pragma once
 
 #include <chrono>

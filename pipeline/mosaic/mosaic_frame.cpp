@@ -159,7 +159,6 @@ class TextsOnce {
 
 // The texts of a frame, with their limits. A thousand partials with the usual notes and radar
 // troubles are well below these limits.
-// troubles need less.
 struct FrameTexts {
     TextsOnce source_files{std::size_t{192} << 10, "volumes"};
     TextsOnce stations{std::size_t{32} << 10, "stations"};

@@ -42,7 +42,8 @@ std::optional<int> port_of(std::string_view text) {
     return port;
 }
 
-// "example.org:80" has the port behind the last colon, "[::1]:80" behind the bracket.
+// A text such as "example.org:80" or "[::1]:80", split. The port is behind the last colon, or
+// behind the bracket.
 struct HostAndPort {
     std::string_view host;  // without brackets
     std::optional<std::string_view> port;
@@ -175,7 +176,8 @@ void read_addresses(TomlTable& web, WebConfig& config) {
     }
 }
 
-// Reads a data set. Its path, a part of addresses, has segments of letters, digits and "-._".
+// Reads a data set. Its path becomes a part of addresses, so its segments consist of letters,
+// digits and "-._".
 void read_collection(TomlTable& table, ThreddsConfig& config) {
     ConfiguredCollection collection;
     collection.path = table.text("path").value_or("");

@@ -33,7 +33,7 @@ struct BindAddress {
 // Reads ADDRESS:PORT with a numeric address. Errors: bad_argument for any other text.
 [[nodiscard]] Result<BindAddress> parse_bind_address(std::string_view text);
 
-// Parts that the server can serve, in the order of names_of_parts.
+// The parts that the server can offer, in the order of names_of_parts.
 enum class WebPart {
     volumes,   // raw files: /volumes
     thredds,   // the THREDDS radar server: /thredds
@@ -70,17 +70,17 @@ struct PublicAddress {
 struct ConfiguredCollection {
     std::string path;  // "nexrad/level2/IDD"
     std::string title;
-    // Names of products of Level III, such as N0Q. If empty, the data set has the Level II files of
+    // Names of Level III products, such as N0Q. If empty, the data set has the Level II files of
     // the catalog.
     std::vector<std::string> variables;
-    // A directory of files of Level III, named Level3_FTG_N0Q_20150615_1201.nids. If empty, the
-    // data set is described, but has no files.
+    // A directory of Level III files with names such as Level3_FTG_N0Q_20150615_1201.nids. If
+    // empty, the data set is described, but has no files.
     std::filesystem::path files;
-    std::vector<std::string> stations;  // to list; empty: all that have files
+    std::vector<std::string> stations;  // stations to list; empty: all that have files
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
-// A station as the THREDDS radar server describes it, in place of its row in the station table.
+// A station as the THREDDS radar server describes it. This replaces its row in the station table.
 struct ConfiguredPlace {
     std::string id;  // "KFTG", or "FTG" as in Level III
     std::string name, state;
@@ -91,23 +91,24 @@ struct ConfiguredPlace {
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
     std::vector<ConfiguredPlace> places;
-    std::vector<std::string> denied;  // prefixes of paths below /thredds that get 403
+    std::vector<std::string> denied;  // a path below /thredds with such a prefix gets 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 
 struct WebLimits {
     int connections = 1024;
-    int connections_of_an_address = 256;  // trusted proxies may have every connection
-    int event_streams = 2048;             // counted apart from other connections
+    int connections_of_an_address = 256;  // trusted proxies may use all connections
+    int event_streams = 2048;             // not counted as other connections
     int event_streams_of_a_client = 64;
     std::uint64_t header_bytes = 32'768;
-    std::chrono::seconds request{20};  // from the opening or last answer to a request's end
-    std::uint64_t least_bytes_per_second = 1'000;  // a client must take an answer this fast
+    std::chrono::seconds request{20};  // from opening or the last answer to the end of the headers
+    std::uint64_t least_bytes_per_second = 1'000;  // a slower client is cut off
     int workers = 0;                               // 0: two for each processor
     int renders = 1;                               // pictures and grids computed at the same time
-    int waiting = 32;                              // requests that wait for a render; beyond, 503
-    int results = 10'000;                          // rows of one query
-    std::uint64_t kept_bytes = 256'000'000;        // packed grids and lists kept in memory
+    // Requests that wait for a render; others get 503.
+    int waiting = 32;
+    int results = 10'000;                    // rows of one query
+    std::uint64_t kept_bytes = 256'000'000;  // packed grids and lists kept in memory
     std::uint64_t kept_picture_bytes = 64'000'000;
     int open_grids = 64;
     std::uint64_t answer_bytes = 256'000'000;  // of all answers on their way, in memory
@@ -116,13 +117,13 @@ struct WebLimits {
 
 struct WebConfig {
     std::vector<BindAddress> listen = {{"127.0.0.1", 8090}, {"::1", 8090}};
-    std::vector<std::string> names;  // further host names, in lower case
+    std::vector<std::string> names;  // host names of this server, in lower case
     std::optional<PublicAddress> public_address;
     std::vector<std::string> trusted_proxies;  // numeric addresses
     std::vector<WebPart> serve = all_parts();  // each once, in the order of WebPart
     std::string bucket = "unidata-nexrad-level2";
     bool cors = false;  // pages of other servers may read answers
-    // A station from which nothing came for this long is silent.
+    // A station counts as silent if nothing came from it for this long.
     std::chrono::seconds silent{1200};
     ThreddsConfig thredds = usual_thredds();
     WebLimits limits;
@@ -132,7 +133,7 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
-// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. Records each error as a
+// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. Each error becomes a
 // complaint of the table.
 [[nodiscard]] WebConfig read_web_config(TomlTable& root);
 

@@ -21,7 +21,7 @@ struct WebSetup {
     std::filesystem::path catalog = "/var/lib/stormcellar/catalog";  // empty: none
     std::filesystem::path cache = "/var/cache/stormcellar";          // empty: none
     // Directory for the numbers of times (web/data/zarr/time_numbers.h). If empty, the numbers are
-    // in memory only. stormcellard.toml has no key for it; stormcellar-web takes
+    // only in memory. stormcellard.toml has no key for it; the program stormcellar-web sets it to
     // $STATE_DIRECTORY/times.
     std::filesystem::path numbers;
     std::vector<AddedStation> added_stations;
@@ -31,13 +31,13 @@ struct WebSetup {
     bool operator==(const WebSetup&) const = default;
 };
 
-// Reads the setup. Relative paths start at the directory of the file. Tables that only stormcellard
-// uses are ignored. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key:
+// Reads the setup. Relative paths start at the directory of the file. Ignores tables that only
+// stormcellard uses. Errors: those of reading the file; bad_argument, "FILE:LINE: [section] key:
 // why".
 [[nodiscard]] Result<WebSetup> load_web_setup(const std::filesystem::path& file);
 
-// Returns a sentence for each difference between `fresh` and `running` that a reload cannot apply:
-// [paths] and [[station]] take effect only at a start. [web], [log] and [[loop]] take effect at
+// Returns a sentence for each difference between `fresh` and `running` that a reload cannot apply.
+// [paths] and [[station]] take effect only at a start; [web], [log] and [[loop]] take effect at
 // once.
 [[nodiscard]] std::vector<std::string> needs_restart(const WebSetup& fresh,
                                                      const WebSetup& running);

@@ -1,5 +1,5 @@
-// web/doors/embedded_file.h -- files that are linked into the program, so that it needs no path to
-// them. The assembler includes their bytes.
+// web/doors/embedded_file.h -- links files into the program, so that it needs no path to find them.
+// The assembler includes their bytes.
 //
 //   STORMCELLAR_EMBED(viewer_page, PAGE_DIRECTORY "/index.html");        // at file scope
 //   std::string_view page = STORMCELLAR_EMBEDDED(viewer_page);

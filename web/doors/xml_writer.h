@@ -1,4 +1,4 @@
-// web/doors/xml_writer.h -- writes escaped XML, one element a line.
+// web/doors/xml_writer.h -- writes escaped XML, one element on each line.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -13,8 +13,8 @@ namespace stormcellar::web {
 
 class XmlWriter {
   public:
-    // Names and values are copied at once. The program itself names elements and attributes, so
-    // names are not escaped.
+    // Names and values are copied at once. Names of elements and attributes are not escaped,
+    // because they come from the program itself.
     using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
     XmlWriter();  // writes the declaration of XML 1.0 in UTF-8

@@ -76,8 +76,8 @@ unsigned status_of(const Error& error) {
     }
 }
 
-// Replaces paths. A path begins with a slash at the start of a word and ends where the message goes
-// on about it, because names of files may hold blanks.
+// Replaces paths in a message. A path begins with a slash at the start of a word. Names of files
+// may hold blanks, so it ends only where the message goes on.
 std::string without_paths(std::string_view message) {
     std::string out;
     while (!message.empty()) {

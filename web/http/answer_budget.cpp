@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::chrono::seconds given_to_new_for{10};
 
-// Returns the object that a piece keeps in memory, with its full size.
+// Returns the object in memory that a piece keeps alive, with its full size.
 AnswerBudget::HeldObject object_of(const Piece& piece) {
     if (const auto* text = std::get_if<Text>(&piece)) return {text->get(), (*text)->size()};
     const auto& slice = std::get<FileSlice>(piece);
@@ -17,7 +17,7 @@ AnswerBudget::HeldObject object_of(const Piece& piece) {
 
 }  // namespace
 
-// Returns true if the pieces together are large enough to be counted.
+// Returns true if the pieces together are so large that they are counted.
 bool AnswerBudget::is_counted(const Pieces& pieces) {
     std::uint64_t sum = 0;
     for (const Piece& piece : pieces)

@@ -1,12 +1,12 @@
 // web/http/answer_budget.h -- limits the memory of answers that are on their way to clients.
 //
 // The budget counts texts in memory and nameless files. It counts each object once, however many
-// answers share it. Answers below 64 KiB are not counted, so they pass even when the budget is
-// spent. One client may hold at most half of the room that other clients leave, or one larger
-// answer. An answer beyond the whole budget passes if nothing else is held. For 10 s after the
-// budget had no room, clients that hold something get nothing more. Otherwise a client whose slow
-// answer was cut off could ask again and share an object that another client holds, and no object
-// would become free.
+// answers share it. Answers below 64 KiB are not counted, so they are sent even if the budget is
+// used up. One client may hold at most half of the room that other clients leave, or one larger
+// answer. An answer that is larger than the whole budget is allowed if nothing else is held. When
+// the budget has had no room, clients that hold something get nothing more for 10 s. Otherwise a
+// client whose slow answer was cut off could ask again and share an object that another client
+// holds, and then no object would ever become free.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -29,9 +29,10 @@ class AnswerBudget {
     explicit AnswerBudget(std::uint64_t most_bytes) : most_bytes_(most_bytes) {}
 
     [[nodiscard]] static bool is_counted(const Pieces& pieces);
-    // Returns false, and takes nothing, if the budget or the client's share of it has no room.
+    // Takes room for the pieces. Returns false, and takes nothing, if the budget or the client's
+    // share of it has no room.
     [[nodiscard]] bool take(const std::string& client, const Pieces& pieces);
-    // Call once for each take() that succeeded, with the same pieces.
+    // Gives the room back. Call it once for each take() that succeeded, with the same pieces.
     void give_back(const std::string& client, const Pieces& pieces);
     [[nodiscard]] std::uint64_t bytes() const;
 
@@ -43,7 +44,7 @@ class AnswerBudget {
   private:
     using Objects = std::vector<HeldObject>;
     static Objects objects_of(const Pieces& pieces);
-    // The objects that one client holds, or all clients together, with the number of answers that
+    // The objects that one client holds, or that all clients hold, with the number of answers that
     // use each object.
     struct Holder {
         std::map<const void*, std::uint64_t> uses;

@@ -7,8 +7,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns true if a browser treats the answer as data, not as a page or a script. Unknown types do
-// not count as data.
+// Returns true if a browser treats the answer as data and not as a page or a script. Returns false
+// for unknown types.
 bool is_data(const Answer& answer) {
     const auto type = std::ranges::find(answer.headers, "Content-Type", &Fields::value_type::first);
     if (type == answer.headers.end()) return false;
@@ -20,7 +20,7 @@ bool is_data(const Answer& answer) {
                                [&](std::string_view one) { return type->second.starts_with(one); });
 }
 
-// Returns headers that forbid browsers everything that the server's pages do not need.
+// Returns headers that forbid browsers all that the server's pages do not need.
 const Fields& headers_of_pages() {
     static const Fields headers = {
         {"Content-Security-Policy",
@@ -38,7 +38,7 @@ const Fields& headers_of_pages() {
 
 void add_common_headers(Answer& answer, const Request& request, bool any_origin) {
     answer.with("X-Content-Type-Options", "nosniff");
-    // The page uses this header to tell refusals of this server from a proxy's refusals.
+    // By this header, the page can tell a refusal of this server from the refusal of a proxy.
     if (answer.status >= 400) answer.with("Stormcellar-Status", std::to_string(answer.status));
     if (!is_data(answer)) {
         for (const auto& [name, value] : headers_of_pages())

@@ -18,22 +18,23 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{500};
-// The rate of a body is not judged before this time.
+// The rate of a body is not judged before it has been sent for this long.
 constexpr std::chrono::seconds rate_is_known_after{5};
-// A client that takes a body at this multiple of the least rate is cut off only for want of room.
+// A client that takes a body at this multiple of the least rate is cut off only if memory is short.
 constexpr std::uint64_t times_least_rate = 20;
-// Limit for one look, because each cut scans all bodies while other threads wait for the lock.
+// Most connections that are cut off in one look, because each cut scans all bodies while other
+// threads wait for the lock.
 constexpr int most_cut_at_once = 16;
-// A new connection has this long to send something before it counts as idle.
+// A new connection that has sent nothing for this long counts as idle.
 constexpr std::chrono::milliseconds first_words_within{250};
-// Bytes of a body that may wait in the kernel beyond the client's window, with few and with many
-// connections. With the smaller limit a volume takes twice the processor time, because the server
-// is woken for small pieces; with the larger limit slow readers on all connections would take
-// gigabytes.
+// Number of bytes of a body that may wait in the kernel beyond the client's window, with few
+// connections and with many. With the smaller number, a volume takes twice the processor time,
+// because the server is woken for small pieces. With the larger number, slow readers on all
+// connections would take gigabytes.
 constexpr int most_unsent_of_few = 2 * 1024 * 1024, most_unsent_of_many = 256 * 1024;
 constexpr std::size_t few_connections = 128;
 
-// Returns the bytes that the other side has acknowledged since the connection was opened.
+// Returns how many bytes the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
     tcp_info info{};
     socklen_t size = sizeof info;
@@ -222,9 +223,9 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
     return is_new ? nullptr : oldest;
 }
 
-// Returns the body to cut first. Bodies below `times_least_rate` come before others, then bodies of
-// clients with more connections, then slower bodies. A proxy counts as if it had one connection,
-// because it represents many clients.
+// Returns the body that must be cut first. Bodies below `times_least_rate` come before others, then
+// bodies of clients with more connections, then slower bodies. A proxy stands for many clients, so
+// it counts as if it had one connection.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
     const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;
@@ -295,7 +296,7 @@ ConnectionWatch::Streams ConnectionWatch::look(SteadyTime now) {
     for (auto& [connection, open] : open_)
         if (!open.is_cut && is_too_slow(open, now)) cut(open);
     cut_slowest_bodies(now);
-    // If many answers share memory, it becomes free only when all of them have ended.
+    // Memory that many answers share becomes free only when all of them have ended.
     const int most_cut = is_memory_short_.exchange(false) ? most_cut_at_once : 0;
     for (int cuts = 0; cuts < most_cut; ++cuts) {
         Open* slowest = slowest_that_holds_memory(now);

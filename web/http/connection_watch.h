@@ -1,10 +1,10 @@
-// web/http/connection_watch.h -- counts connections, and cuts off those that take too long.
+// web/http/connection_watch.h -- counts connections, and cuts off connections that take too long.
 //
-// libmicrohttpd's own timeout is for inactivity, so a client that sends one byte every few seconds
-// would hold a connection forever. This watch limits the total time of a request's arrival, and the
-// rate and total time of a body. It ends a connection by shutdown(2); libmicrohttpd then closes it.
-// libmicrohttpd does not look at a connection whose stream has nothing to send; the watch does, and
-// ends the stream if the client is gone.
+// The timeout of libmicrohttpd is for inactivity, so a client that sends a byte every few seconds
+// would hold a connection forever. This watch limits the total time in which a request must arrive,
+// and the rate and total time of a body. It ends a connection by shutdown(2), and libmicrohttpd
+// then closes it. libmicrohttpd does not look at a connection whose stream has nothing to send. The
+// watch does, and ends the stream if the client is gone.
 //
 // Threads   Many threads may use it. Its own thread looks twice a second.
 #pragma once
@@ -36,39 +36,39 @@ class ConnectionWatch {
     ~ConnectionWatch();
 
     // Returns false if this client, or all clients together, have too many connections. Connections
-    // with streams do not count; their doors limit them.
+    // with streams do not count, because their doors limit them.
     [[nodiscard]] bool may_open(const std::string& client) const;
-    // Call when a connection has opened. If three quarters of the connections are open, the watch
-    // ends the connection that has waited longest for a request. While seven eighths are open, the
-    // watch also ends connections that are sending a body: first bodies below twenty times the
-    // least rate; among these, a body of the client with most connections. Streams do not count.
+    // Call it when a connection has opened. If three quarters of the connections are open, ends the
+    // connection that has waited longest for a request. If seven eighths are open, also ends
+    // connections that are sending a body. Bodies below twenty times the least rate come first;
+    // among these, a body of the client with the most connections. Streams do not count.
     void opened(MHD_Connection* connection, int descriptor, std::string client);
     void closed(MHD_Connection* connection);
     void request_arrived(MHD_Connection* connection);
-    // Call when the server begins to send a body or a stream. A stream may have nothing to send for
-    // long. `holds_memory` says that the answer budget counts the body.
+    // Call it when the server begins to send a body or a stream. A stream may have nothing to send
+    // for long. `holds_memory` is true if the answer budget counts the body.
     void sending_body(MHD_Connection* connection, std::uint64_t bytes, bool holds_memory = false);
     void sending_stream(MHD_Connection* connection, const std::shared_ptr<StreamFeed>& stream);
     void answered(MHD_Connection* connection);
-    // Call when an answer was refused for want of memory. The watch ends the connections of up to
-    // 16 bodies that hold memory, the slowest first, but of no body whose client takes twenty times
-    // the least rate.
+    // Call it when an answer was refused because memory is short. The watch then ends the
+    // connections of up to 16 bodies that hold memory, the slowest first. It spares clients that
+    // take at least twenty times the least rate.
     void memory_is_short() { is_memory_short_ = true; }
     [[nodiscard]] std::size_t count() const;  // including streams
-    // Returns true if no answer is being made or sent, and no new connection may be about to send
-    // its first request.
+    // Returns true if no answer is being made or sent, and no new connection is so young that it
+    // may still send its first request.
     [[nodiscard]] bool is_idle() const;
 
   private:
     enum class Phase { request, thinking, body, stream };
     struct Open {
         int descriptor = -1;
-        std::string client;  // the name under which it is counted
+        std::string client;  // name under which the client is counted
         Phase phase = Phase::request;
-        SteadyTime since;                       // start of the phase, or last look at the rate
-        std::uint64_t taken_bytes = 0;          // acknowledged by the client at `since`
+        SteadyTime since;                       // start of the phase, or the last look at the rate
+        std::uint64_t taken_bytes = 0;          // acknowledged by the client until `since`
         SteadyTime began = {};                  // start of the phase
-        std::uint64_t acknowledged_before = 0;  // acknowledged by the client at `began`
+        std::uint64_t acknowledged_before = 0;  // acknowledged by the client until `began`
         std::uint64_t body_bytes = 0;
         bool holds_memory = false;
         bool is_cut = false;
@@ -76,7 +76,7 @@ class ConnectionWatch {
     };
     void run() STORMCELLAR_EXCLUDES(mutex_);
     using Streams = std::vector<std::shared_ptr<StreamFeed>>;
-    // Cuts off connections. Returns the streams that the caller must end, after it has released the
+    // Cuts off connections. Returns the streams that the caller must end after it has released the
     // lock.
     [[nodiscard]] Streams look(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     void cut_those_gone() STORMCELLAR_REQUIRES(mutex_);
@@ -89,8 +89,8 @@ class ConnectionWatch {
     [[nodiscard]] Open* slowest_body(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] Open* slowest_that_holds_memory(SteadyTime now) STORMCELLAR_REQUIRES(mutex_);
     [[nodiscard]] bool takes_too_long(const Open& open, SteadyTime now) const;
-    // Returns the name under which a client's connections are counted. Proxies that may have all
-    // connections are counted by their own address.
+    // Returns the name under which the connections of a client are counted. A proxy that may have
+    // all connections is counted by its own address.
     [[nodiscard]] std::string name_of(const std::string& client) const;
     void count_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
     void forget_client(const std::string& client) STORMCELLAR_REQUIRES(mutex_);
@@ -105,8 +105,10 @@ class ConnectionWatch {
     ConditionVariable ends_;
     bool is_stopping_ STORMCELLAR_GUARDED_BY(mutex_) = false;
     std::map<MHD_Connection*, Open> open_ STORMCELLAR_GUARDED_BY(mutex_);
-    std::size_t streams_ STORMCELLAR_GUARDED_BY(mutex_) = 0;                    // of open_
-    std::map<std::string, unsigned> by_client_ STORMCELLAR_GUARDED_BY(mutex_);  // without streams
+    // Number of streams in open_.
+    std::size_t streams_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
+    // Connections of each client, without streams.
+    std::map<std::string, unsigned> by_client_ STORMCELLAR_GUARDED_BY(mutex_);
     std::thread thread_;
 };
 

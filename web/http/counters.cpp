@@ -36,7 +36,8 @@ Counters::PerDoor& Counters::door_of(const Request* request) {
     PerDoor* longest = &other_;
     std::size_t length = 0;
     for (PerDoor& door : doors_) {
-        // The door "/" counts only the index page. Requests for unknown paths count as "other".
+        // The door "/" counts only requests for the index page. Requests for unknown paths count as
+        // "other".
         const bool fits =
             door.prefix == "/" ? request->path == "/" : lies_below(request->path, door.prefix);
         if (fits && door.prefix.size() > length) {

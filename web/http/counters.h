@@ -1,8 +1,8 @@
 // web/http/counters.h -- counts the server's requests and answers for /metrics.
 //
-// The server's `on_answer` (web/http/server_options.h) calls count(). Doors are labeled by prefix,
-// so clients cannot create labels. Other rooms add gauges and counters as functions, which are
-// called when /metrics is requested.
+// The server's `on_answer` (web/http/server_options.h) calls count(). Labels are the prefixes of
+// doors, so clients cannot create labels. Other rooms add gauges and counters as functions, which
+// are called when /metrics is requested.
 //
 // Units     Seconds and bytes.
 // Threads   Doors, gauges and counters are added before the server starts. After that, many threads
@@ -24,18 +24,18 @@
 
 namespace stormcellar::web {
 
-// The statuses that the server sends. Any other status is counted as status 0.
+// The statuses that the server sends. All others are counted as status 0.
 inline constexpr std::array<unsigned, 22> counted_statuses = {
     200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405,
     406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};
-// Upper bounds of the histogram of seconds, except infinity.
+// Upper bounds of the histogram of seconds. The bound "infinity" is not in the list.
 inline constexpr std::array<double, 9> counted_seconds = {0.0005, 0.002, 0.01, 0.05, 0.1,
                                                           0.5,    1,     5,    30};
 
 class Counters {
   public:
-    // Counts requests below this prefix ("/tiles") separately. Other requests count as "other", and
-    // requests that could not be read as "unread".
+    // Counts requests below this prefix ("/tiles") separately. All others count as "other";
+    // requests that could not be read count as "unread".
     void add_door(std::string prefix);
     // Add a gauge, which rises and falls, or a counter, which only rises. `name` is the name of the
     // metric family, such as "stormcellar_web_kept_bytes".

@@ -58,7 +58,8 @@ std::optional<UtcTime> parse_http_date(std::string_view text) {
                     &used) == 6 &&
         is_whole())
         return time_of(parts);
-    // Sunday, 06-Nov-94 08:49:37 GMT: a year more than 50 years ahead means the past century.
+    // Sunday, 06-Nov-94 08:49:37 GMT. A year that is more than 50 years ahead means the past
+    // century.
     used = 0;
     if (std::sscanf(line.c_str(), "%*9[A-Za-z], %2d-%3[A-Za-z]-%2d %2d:%2d:%2d GMT%n", &parts.day,
                     parts.month.data(), &parts.year, &parts.hour, &parts.minute, &parts.second,

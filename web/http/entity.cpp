@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t most_ranges = 16;
 
-// Calls `take` with each item of a comma-separated list. The tags of this server hold no commas,
-// though others' may.
+// Calls `take` with each item of a list with commas. Tags of this server contain no commas, but
+// tags of others may.
 template <class Take>
 void each_item(std::string_view list, Take take) {
     while (!list.empty()) {
@@ -33,7 +33,7 @@ bool names_tag(std::string_view list, std::string_view etag, bool weakly) {
     return found;
 }
 
-// Returns the time in whole seconds, as dates of HTTP have them.
+// Returns the time in whole seconds, because dates of HTTP have no fractions.
 std::optional<std::chrono::sys_seconds> seconds_of(std::optional<UtcTime> time) {
     if (!time) return std::nullopt;
     return std::chrono::floor<std::chrono::seconds>(*time);
@@ -54,7 +54,7 @@ bool fails_its_condition(const Request& request, const Entity& entity) {
     return time && entity.modified && *seconds_of(entity.modified) > *time;
 }
 
-// Returns true if the client may get a range of this version (If-Range).
+// Returns true if the client has this version, so that it may get a range (If-Range).
 bool is_same_version(const Request& request, const Entity& entity) {
     const auto known = request.header("If-Range");
     if (!known) return true;
@@ -65,7 +65,7 @@ bool is_same_version(const Request& request, const Entity& entity) {
 }
 
 struct ByteRange {
-    std::uint64_t first = 0, last = 0;  // inclusive
+    std::uint64_t first = 0, last = 0;  // both included
     [[nodiscard]] std::uint64_t size() const { return last - first + 1; }
 };
 
@@ -82,7 +82,7 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
 
 struct Ranges {
     bool makes_sense = true;
-    std::vector<ByteRange> parts;  // the parts that are within the bytes
+    std::vector<ByteRange> parts;  // the ranges that are within the bytes
 };
 
 Ranges parse_ranges(std::string_view header, std::uint64_t size) {
@@ -147,8 +147,8 @@ Answer several_parts(const Entity& entity, const std::vector<ByteRange>& ranges)
     return answer;
 }
 
-// Returns true if the ranges together ask for more than the whole, which is an attack or a mistake;
-// the whole is sent then.
+// Returns true if the ranges together ask for more than the whole. This is an attack or a mistake,
+// and the whole is sent instead.
 bool asks_too_much(const std::vector<ByteRange>& ranges, std::uint64_t size) {
     std::uint64_t sum = 0;
     for (const ByteRange& range : ranges)

@@ -1,8 +1,8 @@
-// web/http/listen_sockets.h -- the sockets on which a server listens. They are separate from the
-// server so that a new server can replace the old one without closing a port, which another program
-// could take.
+// web/http/listen_sockets.h -- the sockets on which a server listens. They are not part of the
+// server, so that a new server can replace the old one without closing a port, which another
+// program could take.
 //
-// Threads   Plain values; many may share a socket.
+// Threads   Plain values. Many may share a socket.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct sockaddr;
 
 namespace stormcellar::web {
 
-// The address and port of either end of a socket.
+// The address and port of one end of a socket.
 struct EndPoint {
     std::string address;
     int port = 0;
@@ -32,9 +32,9 @@ struct ListenSocket {
 };
 using ListenSockets = std::vector<ListenSocket>;
 
-// Returns a socket for each address. Takes the socket from `held` if `held` has one for the
-// address, else opens a new socket. Errors: busy if an address is in use; bad_argument for a text
-// that is not an address; io.
+// Returns a socket for each address. Takes it from `held` if `held` has one for the address, else
+// opens a new one. Errors: busy if an address is in use; bad_argument for a text that is not an
+// address; io.
 [[nodiscard]] Result<ListenSockets> open_listen_sockets(const std::vector<ListenAddress>& wanted,
                                                         const ListenSockets& held = {});
 

@@ -19,8 +19,8 @@ std::string lower_case(std::string_view text) {
     return out;
 }
 
-// Returns the value of `name` in the last element of a Forwarded field, which the trusted proxy
-// added.
+// Returns the value of `name` in the last element of a Forwarded field. The trusted proxy added
+// this element.
 std::string forwarded_value(std::string_view field, std::string_view name) {
     const std::size_t comma = field.rfind(',');
     std::string_view last = comma == std::string_view::npos ? field : field.substr(comma + 1);
@@ -67,9 +67,9 @@ ForwardedFacts facts_of_x_forwarded(const Request& request) {
     return {last_in("X-Forwarded-For"), last_in("X-Forwarded-Proto"), last_in("X-Forwarded-Host")};
 }
 
-// Returns the proxy's statements. A proxy writes one kind of field and, unless configured
-// otherwise, passes on the other kind as its client sent it. So if both kinds are present and name
-// different clients, neither is believed and the proxy counts as the client.
+// Returns what the proxy says. A proxy writes one kind of field. Unless configured otherwise, it
+// passes on the other kind as its client sent it. So if both kinds are present and name different
+// clients, neither is believed, and the proxy counts as the client.
 ForwardedFacts forwarded_facts(const Request& request) {
     const auto field = request.header("Forwarded");
     ForwardedFacts facts = facts_of_x_forwarded(request);
@@ -127,7 +127,7 @@ std::string base_of(const RawRequest& raw, const Request& request, const Identit
 
 Identity identity_of(const ServerOptions& options) {
     Identity identity;
-    // Store the name as it appears in the field Host.
+    // Store the name in the form that the field Host has.
     const auto add_name = [&](const std::string& name) {
         const bool is_v6 = name.find(':') != std::string::npos;
         identity.names.insert(lower_case(is_v6 ? fmt::format("[{}]", name) : name));
@@ -136,7 +136,7 @@ Identity identity_of(const ServerOptions& options) {
         add_name(name);
     for (const ListenAddress& listen : options.listen)
         add_name(listen.address);
-    // Normalize addresses, because IPv6 has several forms of one address.
+    // Normalize addresses, because an IPv6 address can be written in several forms.
     for (const std::string& proxy : options.trusted_proxies)
         identity.proxies.insert(read_address(proxy).value_or(proxy));
     identity.public_address = options.public_address;
@@ -145,7 +145,7 @@ Identity identity_of(const ServerOptions& options) {
     identity.prefix = options.prefix;
     while (identity.prefix.ends_with('/'))
         identity.prefix.pop_back();
-    // The host of the public address is one of the server's names, too.
+    // The host of the public address is also a name of the server.
     const std::size_t scheme = identity.public_address.find("://");
     if (scheme != std::string::npos) {
         const std::string_view rest = std::string_view{identity.public_address}.substr(scheme + 3);
@@ -176,7 +176,8 @@ Reading read_request(const RawRequest& raw, const Identity& identity) {
         return reading;
     }
     const bool is_proxied = identity.proxies.contains(raw.client);
-    // If a proxy gives a name such as "unknown" instead of an address, the proxy stays the client.
+    // If the proxy gives a name such as "unknown" instead of an address, the proxy counts as the
+    // client.
     if (is_proxied) {
         if (auto client = read_address(forwarded_facts(request).client))
             request.client = *std::move(client);

@@ -1,5 +1,5 @@
-// web/http/read_request.h -- checks what libmicrohttpd read and makes a Request of it, or refuses
-// it.
+// web/http/read_request.h -- checks what libmicrohttpd has read, and makes a Request of it or
+// refuses it.
 //
 // Threads   Pure functions.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace stormcellar::web {
 
-// A request as it came from the network.
+// A request as it came over the network.
 struct RawRequest {
     std::string method, target;  // as sent: the path with its query
     bool is_http_1_0 = false;
@@ -28,19 +28,19 @@ struct Refusal {
     std::string reason;
 };
 
-// Names and addresses of this server, and its trusted proxies.
+// The names and addresses of this server, and the proxies that it trusts.
 struct Identity {
     std::set<std::string> names;    // lower case, without ports; "*": any
-    std::set<std::string> proxies;  // addresses
+    std::set<std::string> proxies;  // addresses of trusted proxies
     std::string public_address, prefix;
 };
 [[nodiscard]] Identity identity_of(const ServerOptions& options);
 
-// Returns true if a Host field names this server: a loopback name, or one of `names`, with any
-// port.
+// Returns true if a Host field names this server: if it is a loopback name, or one of `names`, with
+// any port.
 [[nodiscard]] bool names_us(std::string_view host, const Identity& identity);
 
-// A decoded request, and the reason to refuse it; none if it may be answered.
+// A decoded request, and the answer that refuses it; none: it may be answered.
 struct Reading {
     Request request;
     std::optional<Refusal> refusal;

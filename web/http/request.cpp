@@ -22,7 +22,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-// Returns true for text that is safe in logs, headers and pages: UTF-8 without control characters.
+// Returns true if the text is safe in logs, headers and pages: UTF-8 without control characters.
 bool is_plain(std::string_view text) {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
@@ -37,8 +37,8 @@ bool is_plain(std::string_view text) {
     return true;
 }
 
-// Returns the weight that an Accept header gives a media type, from the most specific range that
-// matches it; 0 if none does.
+// Returns the weight that an Accept header gives to a media type. The most specific range that
+// matches the type counts; 0 if none does.
 double weight_of_type(std::string_view list, std::string_view type, std::string_view subtype) {
     double weight = 0;
     int most_specific = 0;
@@ -106,7 +106,7 @@ bool Request::accepts(std::string_view coding) const {
         rest.remove_prefix(std::min(comma + 1, rest.size()));
         const std::size_t semicolon = std::min(item.find(';'), item.size());
         if (!is_name(trimmed(item.substr(0, semicolon)), coding)) continue;
-        // A weight refuses the coding only if all its digits are 0.
+        // A weight refuses the coding only if all digits of the weight are 0.
         const std::string_view weight = item.substr(semicolon);
         const std::size_t equals = weight.find('=');
         if (equals == std::string_view::npos) return true;
@@ -152,7 +152,8 @@ std::optional<std::string> decoded(std::string_view text, bool plus_is_space) {
 }
 
 std::optional<std::string> decoded_path(std::string_view target) {
-    // Refuse an encoded slash or backslash: it would split a segment in two, here or in a proxy.
+    // Refuse an encoded slash or backslash, because it would split a segment in two, here or in a
+    // proxy.
     for (std::size_t i = 0; i + 2 < target.size(); ++i) {
         if (target[i] != '%') continue;
         const int code = hex_digit(target[i + 1]) * 16 + hex_digit(target[i + 2]);

@@ -20,7 +20,7 @@ void let_text_go(void* text) {
 
 HttpResponse response_of_text(const Text& text) {
     auto held = std::make_unique<Text>(text);
-    // libmicrohttpd does not change the bytes; its interface predates const.
+    // libmicrohttpd does not change the bytes, but its interface does not say const.
     HttpResponse response(MHD_create_response_from_buffer_with_free_callback_cls(
         text->size(), const_cast<char*>(text->data()), &let_text_go, held.get()));
     if (response != nullptr) (void)held.release();
@@ -35,7 +35,7 @@ HttpResponse response_of_file(const FileSlice& slice) {
     return response;
 }
 
-// Reads pieces one after another. Ends the connection if a file has become shorter.
+// Reads pieces one after another. Ends the connection if a file has become shorter than it was.
 ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::size_t most) try {
     const Pieces part = part_of(*static_cast<const Pieces*>(pieces), position, most);
     std::size_t filled = 0;
@@ -54,7 +54,7 @@ ssize_t read_pieces(void* pieces, std::uint64_t position, char* buffer, std::siz
     }
     return filled > 0 ? static_cast<ssize_t>(filled) : MHD_CONTENT_READER_END_WITH_ERROR;
 } catch (const std::exception&) {
-    return MHD_CONTENT_READER_END_WITH_ERROR;  // exceptions must not enter libmicrohttpd
+    return MHD_CONTENT_READER_END_WITH_ERROR;  // no exception may enter libmicrohttpd
 }
 
 void let_pieces_go(void* pieces) {
@@ -101,7 +101,7 @@ HttpResponse response_of_stream(const std::shared_ptr<Stream>& stream, MHD_Conne
 }
 
 // Answers HEAD for a stream. libmicrohttpd would write the end of a chunked body, but an answer to
-// HEAD must have no body. Without chunks, the connection closes after the answer.
+// HEAD must have no body. So this answer is not chunked, and the connection closes after it.
 HttpResponse response_without_stream() {
     const auto ends = +[](void*, std::uint64_t, char*, std::size_t) -> ssize_t {
         return MHD_CONTENT_READER_END_OF_STREAM;

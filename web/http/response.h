@@ -11,8 +11,8 @@
 
 namespace stormcellar::web {
 
-// Makes the response. It sets `feed` if the body is a stream, unless the verb is HEAD, which does
-// not begin one. Returns null if memory or descriptors have run out.
+// Makes the response. Sets `feed` if the body is a stream, but not for HEAD, which begins no
+// stream. Returns null if memory or descriptors have run out.
 [[nodiscard]] HttpResponse make_response(const Answer& answer, Verb verb,
                                          MHD_Connection* connection,
                                          std::shared_ptr<StreamFeed>* feed);

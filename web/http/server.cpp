@@ -30,8 +30,8 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Adds a header. Exceptions must not cross libmicrohttpd. If memory is short, drop all headers,
-// which makes the request invalid.
+// Adds a header. No exception may enter libmicrohttpd. If memory is short, drops all headers, which
+// makes the request invalid.
 MHD_Result take_header(void* headers, MHD_ValueKind, const char* name, const char* value) {
     auto& fields = *static_cast<Fields*>(headers);
     try {
@@ -55,8 +55,8 @@ Answer answer_of_exception(std::string_view what) {
     return answer;
 }
 
-// Calls `make`, and answers 503 if it throws, because a failed answer (memory may be short) must
-// not stop the server.
+// Calls `make`. Answers 503 if it throws, because an answer that fails, perhaps for lack of memory,
+// must not stop the server.
 template <class Make>
 std::optional<Answer> made_or_503(const Make& make) {
     try {
@@ -75,10 +75,10 @@ struct Exchange {
     std::shared_ptr<Door> door;
     std::optional<Answer> answer;
     std::shared_ptr<StreamFeed> feed;
-    std::string counts_as;      // the client's name for limits
+    std::string counts_as;      // name of the client for limits
     bool holds_budget = false;  // the answer budget counts the bytes
     SteadyClock::time_point began = SteadyClock::now();
-    enum class Stage { first_line, headers, answer };  // how far it was read
+    enum class Stage { first_line, headers, answer };  // how far it has been read
     Stage stage = Stage::first_line;
 };
 
@@ -105,7 +105,8 @@ struct Server::Impl {
                       Exchange& exchange);
     bool is_refused(MHD_Connection* connection, const char* method, const char* version,
                     Exchange& exchange) const;
-    // Returns false if a worker makes the answer; libmicrohttpd then asks again.
+    // Returns false if a worker makes the answer. libmicrohttpd asks again when the answer is
+    // there.
     bool begin(MHD_Connection* connection, Exchange& exchange);
     bool let_work(MHD_Connection* connection, Exchange& exchange);
     void hand_over(WorkQueue& workers, MHD_Connection* connection, Exchange& exchange,
@@ -139,15 +140,15 @@ struct Server::Impl {
     WorkQueue queue;
 };
 
-// Begins a request. libmicrohttpd passes the returned pointer to the functions below as the
-// request's own.
+// Begins a request. libmicrohttpd passes the returned pointer to the functions below, as the
+// pointer of this request.
 void* Server::Impl::first_line(void* /*self*/, const char* uri, MHD_Connection* /*connection*/) {
     try {
         auto exchange = std::make_unique<Exchange>();
         exchange->raw.target = uri;
         return exchange.release();
     } catch (const std::exception&) {
-        return nullptr;  // request() then closes the connection
+        return nullptr;  // request() will then close the connection
     }
 }
 
@@ -206,8 +207,8 @@ void Server::Impl::connection(void* self, MHD_Connection* connection, void** /*o
 }
 
 // Handles a request. libmicrohttpd calls this when the headers have come, again at the end of the
-// request, and again when a suspended connection is resumed. An answer to the first call closes the
-// connection, because the client may still be sending a body, so the first call only refuses.
+// request, and again when a suspended connection is resumed. At the first call the client may still
+// be sending a body, so that an answer would close the connection. So the first call only refuses.
 MHD_Result Server::Impl::handle(MHD_Connection* connection, const char* method, const char* version,
                                 Exchange& exchange) {
     switch (exchange.stage) {
@@ -266,8 +267,8 @@ bool Server::Impl::let_work(MHD_Connection* connection, Exchange& exchange) {
     return false;
 }
 
-// Hands the exchange to a worker, which owns it from the moment at which the work is added until it
-// resumes the connection.
+// Hands the exchange to a worker. The worker owns it from the moment when the work is added until
+// it resumes the connection.
 void Server::Impl::hand_over(WorkQueue& workers, MHD_Connection* connection, Exchange& exchange,
                              bool may_take_long) {
     const auto added = made_or_503([&]() -> std::optional<Answer> {
@@ -307,8 +308,8 @@ void Server::Impl::work(WorkQueue::Turn turn, MHD_Connection* connection, Exchan
     }
 }
 
-// Takes the answer's bytes from the budget. This includes HEAD, because the server holds the
-// answers of a client that sends many such requests and reads nothing.
+// Takes room for the answer's bytes from the budget, also for HEAD: a client may send many such
+// requests and read nothing, and the server holds all of their answers.
 void Server::Impl::take_budget(Exchange& exchange) {
     const auto* pieces = std::get_if<Pieces>(&exchange.answer->body);
     if (pieces == nullptr) return;
@@ -354,7 +355,7 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
 Status Server::Impl::listen(const ListenSocket& socket) {
     Descriptor silent{::eventfd(0, EFD_CLOEXEC)};
     if (!silent.is_open()) return system_failure("cannot listen on " + socket.url, errno);
-    // Leave paths and queries encoded: read_request() decodes them, and refuses some that
+    // Leave paths and queries encoded. read_request() decodes them, and refuses some that
     // libmicrohttpd would accept.
     const auto undecoded =
         +[](void*, MHD_Connection*, char* text) { return std::char_traits<char>::length(text); };
@@ -378,17 +379,17 @@ Status Server::Impl::listen(const ListenSocket& socket) {
     return {};
 }
 
-// Stops listening without MHD_quiesce_daemon(): that function and the daemon's thread may both
-// remove the socket from the epoll set, and the second removal ends the program (libmicrohttpd
-// 0.9.75). Instead, the daemon's descriptor is replaced by one at which nothing ever happens.
+// Stops listening, but not with MHD_quiesce_daemon(). That function and the daemon's thread may
+// both remove the socket from the epoll set, and the second removal ends the program (libmicrohttpd
+// 0.9.75). Instead, replaces the daemon's descriptor by one at which nothing ever happens.
 void Server::Impl::stop_listening(const Listener& listener) {
     const auto info = [&](MHD_DaemonInfoType type) {
         return MHD_get_daemon_info(listener.daemon, type);
     };
     const int epoll = info(MHD_DAEMON_INFO_EPOLL_FD)->epoll_fd;
     const int listening = info(MHD_DAEMON_INFO_LISTEN_FD)->listen_fd;
-    // At its limit of connections the daemon itself has removed the socket, and will add it again
-    // later.
+    // If the daemon is at its limit of connections, it has removed the socket itself and will add
+    // it again later.
     const bool was_in = ::epoll_ctl(epoll, EPOLL_CTL_DEL, listening, nullptr) == 0;
     ::dup3(listener.silent.number(), listening, O_CLOEXEC);
     epoll_event event{};
@@ -403,7 +404,7 @@ void Server::Impl::wait_until_idle(std::chrono::milliseconds most) const {
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }
 
-// Stops the server. libmicrohttpd must not be stopped while a connection is suspended.
+// Stops the server. No connection may be suspended when libmicrohttpd is stopped.
 void Server::Impl::stop() {
     is_stopping = true;
     for (const Listener& listener : listeners)
@@ -413,7 +414,8 @@ void Server::Impl::stop() {
         for (const auto& feed : feeds)
             feed->end();
     }
-    // Wait until requests that have come, or are about to, are answered and the answers are sent.
+    // Wait until requests that have come, or are about to come, are answered and the answers are
+    // sent.
     wait_until_idle(std::chrono::seconds{2});
     // Tell the clients of requests that still wait to come back.
     queue.stop();

@@ -1,9 +1,9 @@
 // web/http/server.h -- answers HTTP/1.1 with libmicrohttpd, through doors (web/http/door.h).
 //
-// One thread for each listening address serves all of its connections. A bounded number of workers
-// makes the answers that take time. The server answers GET, HEAD and OPTIONS only. It checks the
-// Host field first, because otherwise a web page could read data that is served on loopback (DNS
-// rebinding).
+// One thread for each address on which the server listens serves all connections of that address. A
+// limited number of workers makes the answers that take time. The server answers only GET, HEAD and
+// OPTIONS. It checks the Host field first, because otherwise a web page could read data that are
+// served on loopback (DNS rebinding).
 //
 // Threads   Many threads may use it. Doors are called from many threads.
 // Errors    busy if an address is in use; bad_argument if it is not an address; io.
@@ -22,7 +22,7 @@
 
 namespace stormcellar::web {
 
-// The connections, requests and memory that the server holds at the moment.
+// The connections, requests and memory that the server holds now.
 struct ServerFacts {
     std::size_t connections = 0, streams = 0, waiting = 0, working = 0;
     std::uint64_t answer_bytes = 0;  // of answers on their way, in memory
@@ -31,17 +31,17 @@ struct ServerFacts {
 class Server {
   public:
     // Listens on `sockets`, which stay open when the server ends. If `sockets` is empty, opens
-    // sockets for the addresses of the options.
+    // sockets for the addresses in the options.
     static Result<std::unique_ptr<Server>> open(ServerOptions options,
                                                 std::shared_ptr<const Doors> doors,
                                                 ListenSockets sockets = {});
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
-    // Stops. Streams end, requests that wait for a worker get 503, and answers under way are
-    // finished if that takes at most two seconds.
+    // Stops. Streams end. Requests that wait for a worker get 503. Answers under way are finished
+    // if that takes at most two seconds.
     ~Server();
 
-    // Returns a URL such as "http://127.0.0.1:8090/" for each address, with the actual port.
+    // Returns a URL with the actual port, such as "http://127.0.0.1:8090/", for each address.
     [[nodiscard]] std::vector<std::string> addresses() const;
     [[nodiscard]] ServerFacts facts() const;
 

@@ -1,4 +1,5 @@
-// web/http/server_options.h -- where the server listens, whom it answers, and its limits.
+// web/http/server_options.h -- says where the server listens, whom it answers, and what its limits
+// are.
 //
 // Threads   Plain data.
 #pragma once
@@ -22,45 +23,46 @@ struct ListenAddress {
 };
 
 struct ServerLimits {
-    unsigned most_connections = 1024;  // except connections with streams
+    unsigned most_connections = 1024;  // not counting connections with streams
     unsigned most_streams = 2048;      // room for the streams that doors make
-    // Limit for one client: an IPv4 address or an IPv6 /64 network. Trusted proxies may have all.
+    // Limit for one client, which is an IPv4 address or an IPv6 /64 network. Trusted proxies may
+    // have all connections.
     unsigned most_connections_of_address = 256;
     std::size_t header_bytes = 32 * 1024;  // request line and headers together
-    // Limit from the opening of a connection, or the end of the previous answer, to the end of a
-    // request's headers.
+    // Limit of the time for a request. It counts from the opening of the connection, or from the
+    // end of the previous answer, to the end of the headers.
     std::chrono::seconds request_time{20};
-    // A client that takes a waiting body more slowly than this, averaged over `rate_time`, is cut
-    // off. 0: never.
+    // A client is cut off if it takes a waiting body more slowly than this, averaged over
+    // `rate_time`. 0: never.
     std::uint64_t least_bytes_per_s = 1000;
     std::chrono::seconds rate_time{30};
-    // A client is also cut off if it has not taken a whole body after this time plus the time that
-    // the body takes at twenty times `least_bytes_per_s`.
+    // A client is also cut off if it has not taken a whole body after a longer time: this time,
+    // plus the time that the body takes at twenty times `least_bytes_per_s`.
     std::chrono::seconds answer_time{60};
     // Limit of the memory of answers on their way (web/http/answer_budget.h). Answers beyond it get
     // 503.
     std::uint64_t answer_bytes = 256'000'000;
     unsigned workers = 4;           // threads that make answers
-    std::size_t most_waiting = 64;  // requests that wait for a worker; further ones get 503
+    std::size_t most_waiting = 64;  // requests that wait for a worker; others get 503
 };
 
-// Facts about one answer, for the log and for metrics.
+// Facts about one answer, for the log and the metrics.
 struct Served {
-    const Request* request = nullptr;  // null if it could not be read
+    const Request* request = nullptr;  // null: the request could not be read
     unsigned status = 0;
     std::uint64_t bytes = 0;                   // of the body; 0 for streams
     std::chrono::duration<double> seconds{0};  // until the answer was made
-    std::string_view trouble = {};             // an error that is hidden from the client
+    std::string_view trouble = {};             // an error that the client does not see
 };
 
 struct ServerOptions {
     std::vector<ListenAddress> listen = {{}};
-    // Accepted Host fields, in addition to the loopback names and the addresses of `listen`. "*":
-    // any.
+    // Host fields that are accepted in addition to the loopback names and the addresses of
+    // `listen`. "*": any.
     std::vector<std::string> names;
-    // The address under which clients reach the server; empty: taken from Host.
+    // The address under which clients reach the server; empty: the address in the field Host.
     std::string public_address;
-    // The path under which a proxy forwards requests, for example "/storms"; empty: none.
+    // The path under which a proxy forwards requests, such as "/storms"; empty: none.
     std::string prefix;
     // Addresses whose Forwarded and X-Forwarded fields are believed.
     std::vector<std::string> trusted_proxies;

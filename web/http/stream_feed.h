@@ -21,19 +21,19 @@ class StreamFeed {
     StreamFeed(const StreamFeed&) = delete;
     StreamFeed& operator=(const StreamFeed&) = delete;
 
-    // Call once, after a shared_ptr holds this object.
+    // Call it once, after a shared_ptr holds this object.
     void begin(const std::shared_ptr<StreamFeed>& self);
-    // Fills the buffer. Returns the number of bytes, 0 if the connection was suspended, or
+    // Fills the buffer. Returns the number of bytes; 0 if the connection was suspended; or
     // MHD_CONTENT_READER_END_OF_STREAM.
     ssize_t read(char* buffer, std::size_t most);
-    // Call when the connection has closed.
+    // Call it when the connection has closed.
     void leave();
-    // Call when the server stops. The stream ends at the next read.
+    // Call it when the server stops. The stream then ends at the next read.
     void end();
 
   private:
     void more();
-    // Resuming wakes the server's thread.
+    // Resumes the connection, which wakes the server's thread.
     void resume_if_suspended() STORMCELLAR_REQUIRES(mutex_);
 
     const std::shared_ptr<Stream> stream_;

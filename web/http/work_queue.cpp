@@ -12,7 +12,7 @@ WorkQueue::WorkQueue(unsigned workers, std::size_t most_waiting) : most_waiting_
         for (unsigned i = 0; i < std::max(1u, workers); ++i)
             threads_.emplace_back([this] { run(); });
     } catch (const std::system_error&) {
-        // The system gives no further thread, so the threads that exist share the work.
+        // The system gives no further thread, so the existing threads do the work.
         if (threads_.empty()) throw;
     }
 }
@@ -37,7 +37,7 @@ bool WorkQueue::add(const std::string& client, Work work) {
         const MutexLock lock(mutex_);
         if (is_stopping_) return false;
         const auto known = clients_.find(client);
-        // Each idle thread takes one piece of work at once, so that many pieces do not count as
+        // Each idle thread takes a piece of work at once, so that many pieces do not count as
         // waiting.
         if (waiting_ >= most_waiting_ + (threads_.size() - working_)) {
             lost = take_place_of_other(known == clients_.end() ? 0 : known->second.requests());

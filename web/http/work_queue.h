@@ -1,11 +1,11 @@
-// web/http/work_queue.h -- a bounded number of threads that make answers, and a bounded number of
-// waiting requests.
+// web/http/work_queue.h -- a limited number of threads that make answers, and a limited number of
+// requests that wait for them.
 //
-// Clients share the threads. A free thread takes work of the client for which the fewest threads
-// work. Among clients with equally few, it takes the client that came, or whose last turn ended,
-// longest ago. If all places are taken, a new request takes the place of another client's newest
-// waiting request. That client is the one with the most requests, and must have at least two more
-// than the new request's client.
+// Clients share the threads. A thread that becomes free takes work of the client for which the
+// fewest threads work. If several clients have equally few, it takes the client that came, or whose
+// last turn ended, longest ago. If all waiting places are taken, a new request takes the place of
+// another client's newest waiting request. That client is the one with the most requests, and it
+// must have at least two more than the client of the new request.
 //
 // Threads   Many threads may add work.
 #pragma once
@@ -29,15 +29,16 @@ class WorkQueue {
     WorkQueue(unsigned workers, std::size_t most_waiting);
     WorkQueue(const WorkQueue&) = delete;
     WorkQueue& operator=(const WorkQueue&) = delete;
-    // Runs the waiting work with `stopping`, so that each request is answered at once.
+    // Runs the waiting work with `stopping`, so that each request gets an answer at once.
     ~WorkQueue();
 
-    // The reason why a thread runs work: the turn of the work has come, the queue stops, or another
-    // client's work took its place. Work must not throw.
+    // Tells the work why it is run: its turn has come, the queue stops, or another client's work
+    // has taken its place. Work must not throw.
     enum class Turn { came, stopping, lost };
     using Work = std::function<void(Turn turn)>;
-    // Returns false if the queue stops, or if too much work waits and this work can take no place.
-    // If it takes the place of other work, the caller's thread runs the other work with `lost`.
+    // Adds work. Returns false if the queue stops, or if too much work waits and this work can take
+    // no other's place. If it takes a place, the caller's thread runs the work that loses it with
+    // `lost`.
     [[nodiscard]] bool add(const std::string& client, Work work);
     void stop();
     [[nodiscard]] std::size_t waiting() const;
@@ -53,7 +54,7 @@ class WorkQueue {
     using Clients = std::map<std::string, Client>;
     void run() STORMCELLAR_EXCLUDES(mutex_);
     [[nodiscard]] Clients::iterator next() STORMCELLAR_REQUIRES(mutex_);
-    // Removes and returns the newest waiting work of the client with the most requests, if that
+    // Removes and returns the newest waiting work of the client with the most requests, if this
     // client has more than `requests` + 1.
     [[nodiscard]] std::optional<Work> take_place_of_other(std::size_t requests)
         STORMCELLAR_REQUIRES(mutex_);

@@ -25,8 +25,9 @@ class Measures {
     void watch_grids(const std::shared_ptr<Grids>& grids);
     void watch_events(const std::shared_ptr<EventHub>& hub,
                       const std::shared_ptr<const EventFeed>& feed);
-    // Sets the server that is measured. Call this once the server is open, because the server needs
-    // doors that hold these measures. Nobody may read them after the server has ended.
+    // Sets the server to measure. Call it when the server is open: the server is made later than
+    // these measures, because its doors hold them. Nobody may read the measures after the server
+    // has ended.
     void set_server(const Server* server) { *server_ = server; }
 
   private:

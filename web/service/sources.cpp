@@ -26,7 +26,7 @@ namespace stormcellar::web {
 namespace {
 
 // For each frame that may wait, this many maps may wait. A map takes milliseconds and a frame up to
-// seconds, so both have their own workers.
+// seconds. So both have their own workers.
 constexpr std::size_t maps_for_a_frame = 8;
 
 void add_pictures(Doors& doors, const Sources& sources) {
@@ -60,11 +60,11 @@ void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAn
     doors.add("/zarr3", std::make_shared<ZarrDoor>(shared, ZarrVersion::three));
 }
 
-// Databases of the catalog that are open at once, each with three descriptors. There are some 200
-// radars, and a list of all stations reads the database of each.
+// Number of databases of the catalog that are open at the same time, each with three descriptors.
+// There are some 200 radars, and a list of all stations reads the database of each.
 constexpr std::size_t most_databases = 256;
 
-// Follows the daemon's work for events, metrics and silent stations.
+// Follows what the daemon does, for events, metrics and silent stations.
 struct Watched {
     std::shared_ptr<EventHub> hub = EventHub::make();
     std::shared_ptr<const EventFeed> feed;
@@ -148,7 +148,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
-    // The page draws the data of the API.
+    // The page of the viewer draws data of the API.
     if (setup.web.serves(WebPart::grids) && !viewer_files().empty())
         doors->add("/view", std::make_shared<ViewerDoor>());
     doors->add("/", std::make_shared<IndexDoor>(doors->prefixes(), setup.web.bucket));

@@ -1,4 +1,4 @@
-// web/service/sources.h -- the sources of the doors' answers: the catalog, the grids, and the
+// web/service/sources.h -- the sources from which the doors answer: the catalog, the grids, and the
 // configuration.
 //
 // Threads   Plain data; many threads may use the objects behind the pointers.
@@ -17,19 +17,19 @@ namespace stormcellar::web {
 
 struct Sources {
     WebSetup setup;
-    // Null while there is no catalog.
+    // Null as long as there is no catalog.
     std::shared_ptr<const catalog::CatalogReader> catalog;
     std::shared_ptr<Grids> grids;
-    // One object for the life of the program, because clients hold its numbers.
+    // One object as long as the program runs, because clients hold its numbers.
     std::shared_ptr<TimeNumbers> numbers;
 };
 
-// Opens the sources that exist. A cache or a catalog that does not exist yet is no error. Errors:
-// io, permission and others of a catalog or cache that exists.
+// Opens the sources that exist. It is no error if a cache or a catalog does not exist yet. Errors:
+// io, permission and others for a catalog or cache that exists.
 [[nodiscard]] Result<Sources> open_sources(WebSetup setup);
 
-// Returns the doors for all parts in `serve` of [web], and for the index. They count in `measures`,
-// which belong to one server.
+// Returns a door for each part in `serve` of [web], and for the index. The doors count in
+// `measures`, which belong to one server.
 [[nodiscard]] std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures);
 
 }  // namespace stormcellar::web

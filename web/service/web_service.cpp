@@ -19,7 +19,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns true if [::1] can be used. The shipped configuration names it, but IPv6 may be off.
+// Returns true if [::1] can be used. The shipped configuration names it, but IPv6 may be off on
+// this machine.
 bool has_ipv6_loopback() {
     const Descriptor socket{::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0)};
     if (!socket.is_open()) return false;
@@ -41,7 +42,7 @@ void note_answer(const Served& served) {
         served.bytes, served.seconds.count() * 1000, served.request->client);
 }
 
-// Logs failures of answers. Because clients can repeat requests, it logs the same text once a
+// Logs failures of answers. Clients can repeat requests, so it logs the same text only once a
 // minute, and only a few texts.
 class TroubleLog {
   public:
@@ -65,8 +66,8 @@ class TroubleLog {
     std::set<std::string, std::less<>> noted_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// Returns true if a held socket has the port of a wanted address that has no socket: 127.0.0.1:80
-// blocks 0.0.0.0:80.
+// Returns true if a held socket has the port of a wanted address that has no socket. For example, a
+// socket at 127.0.0.1:80 prevents one at 0.0.0.0:80.
 bool holds_a_port_of(const std::vector<ListenAddress>& wanted, const ListenSockets& held) {
     return std::ranges::any_of(held, [&](const ListenSocket& socket) {
         return std::ranges::any_of(wanted, [&](const ListenAddress& where) {
@@ -103,8 +104,8 @@ ServerOptions server_options_of(const WebConfig& config) {
     options.limits.least_bytes_per_s = limits.least_bytes_per_second;
     options.limits.answer_bytes = limits.answer_bytes;
     options.limits.workers = workers_of(limits);
-    // A connection has one request at a time, so the limit of connections is large enough for the
-    // queue. Slow answers have limits of their own.
+    // A connection has only one request at a time, so as many places as connections are enough for
+    // the queue. Slow answers have limits of their own.
     options.limits.most_waiting = static_cast<std::size_t>(limits.connections);
     return options;
 }
@@ -133,7 +134,7 @@ Status WebService::serve() try {
     if (!server) return pass_on(server);
     measures->set_server(server->get());
     sockets_ = std::move(*sockets);
-    // An earlier server ends now. This one listens already, so no client has to wait.
+    // An earlier server ends here. The new server listens already, so that no client has to wait.
     server_ = std::move(*server);
     return {};
 } catch (const std::exception& error) {
@@ -190,7 +191,7 @@ Status WebService::reload(WebSetup fresh) {
     fresh.cache = before.cache;
     fresh.numbers = before.numbers;
     fresh.added_stations = before.added_stations;
-    // Do first whatever can fail, while the old server goes on.
+    // First do what can fail, while the old server goes on.
     auto sources = open_sources(std::move(fresh));
     if (!sources) return pass_on(sources);
     sources->numbers = sources_.numbers;

@@ -1,8 +1,8 @@
 // web/data/events/catalog_changes.h -- finds the stations whose databases were written.
 //
 // CatalogChanges compares sizes and times of the files in the catalog's directory (STATION.sqlite
-// and its write-ahead log). This takes two system calls a station, opens no file, and needs no
-// inotify watch.
+// and its write-ahead log). For each station this takes two system calls. It opens no file and
+// needs no inotify watch.
 //
 // Threads   One thread at a time.
 // Errors    None. A directory that does not exist or cannot be read has no stations.
@@ -20,8 +20,8 @@ class CatalogChanges {
   public:
     explicit CatalogChanges(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-    // Returns, sorted, the stations whose databases are new or were written since the last call.
-    // The first call returns all stations.
+    // Returns the stations whose databases are new or were written since the last call, sorted. The
+    // first call returns all stations.
     [[nodiscard]] std::vector<std::string> take();
 
   private:

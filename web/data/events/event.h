@@ -1,4 +1,5 @@
-// web/data/events/event.h -- what happens in cache and catalog, as numbered events.
+// web/data/events/event.h -- numbered events, which say what happens in the cache and in the
+// catalog.
 //
 // Threads   Plain values.
 #pragma once
@@ -49,16 +50,16 @@ inline constexpr auto event_types = std::to_array<EventTypeFacts>({
 
 struct Event {
     EventType type = EventType::reset;
-    std::string station;  // ICAO; empty: the event is not about a single station
-    std::string domain;   // of a grid; for an event of a station, the station's own domain
+    std::string station;  // ICAO; empty: not about a single station
+    std::string domain;   // of the grid; if the event is of a station, its own domain
     std::optional<level2::Moment> moment;
     std::string json;  // one object on one line
 };
 
-// Selects the events that a client wants to hear. An event fits if it is about one of the filter's
-// stations or domains, or if the filter names neither. If the filter names moments or types, they
-// must fit, too. An event without a moment fits any list of moments, so that a client that asks for
-// REF hears of silent stations. A reset fits every filter.
+// Selects the events that a client wants. An event fits if it is about one of the filter's stations
+// or domains, or if the filter names neither. If the filter names moments or types, these must fit,
+// too. An event without a moment fits every list of moments, so that a client that wants only REF
+// hears of silent stations. A reset fits every filter.
 struct EventFilter {
     std::vector<std::string> stations = {}, domains = {};
     std::vector<level2::Moment> moments = {};
@@ -66,19 +67,19 @@ struct EventFilter {
     [[nodiscard]] bool fits(const Event& event) const;
 };
 
-// The last event that a client has: the run of the server, and the number of the event.
+// The last event that a client has: the run of the server that sent it, and its number in that run.
 struct EventId {
     std::string run;
     std::uint64_t number = 0;
 };
-// Reads "5f3a09c1-1024", the form of the `id` line. Returns none for any other text.
+// Reads an id such as "5f3a09c1-1024", the form in the `id` line. Returns none for any other text.
 [[nodiscard]] std::optional<EventId> parse_event_id(std::string_view text);
 [[nodiscard]] std::string event_id_text(std::string_view run, std::uint64_t number);
 
-// Returns the lines of an event in the stream, with the empty line that ends it.
+// Returns the lines that send an event in the stream, with the empty line at the end.
 [[nodiscard]] std::string event_frame(const Event& event, std::string_view run,
                                       std::uint64_t number);
-// Returns an event that says why events were lost.
+// Returns the event that tells clients that events were lost, with the reason.
 [[nodiscard]] Event reset_event(std::string_view reason);
 
 }  // namespace stormcellar::web

@@ -19,20 +19,20 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::seconds tick_every{1};
-// If a grid of a station came this recently, the station's database is not queried.
+// The database of a station is not queried if a grid of the station came this recently.
 constexpr std::chrono::seconds grids_speak_for{30};
-// Shortest time between two queries of one station's database.
+// Least time between two queries of one station's database.
 constexpr std::chrono::seconds ask_every{5};
-// A database file changes before readers see the commit, because SQLite writes the log, waits for
-// the disk, and then publishes the commit. So the database is queried twice for each change.
+// Number of queries for each change. SQLite writes the log, waits for the disk, and then publishes
+// the commit, so the file changes before readers see the commit. The second query sees it.
 constexpr int asks_for_a_change = 2;
-// If more changes than these wait, drop them and have clients request everything again.
+// If more changes than this wait, drop them all and let clients request everything again.
 constexpr std::size_t most_changes_waiting = 20'000;
 
 }  // namespace
 
-// Changes that the cache watch has reported and the feed has not read. The watch may outlive the
-// feed.
+// The changes that the watch of the cache has reported and the feed has not read yet. The watch may
+// outlive the feed.
 struct WaitingChanges {
     void add(const CacheChange& change) {
         {
@@ -45,7 +45,8 @@ struct WaitingChanges {
         }
         more.notify_one();
     }
-    // Waits for changes until the given time or a stop, and returns them.
+    // Waits until there are changes, the given time has come, or the feed stops. Returns the
+    // changes.
     std::vector<CacheChange> take(SteadyTime until) {
         const MutexLock lock(mutex);
         while (!is_stopping && changes.empty() && steady_now() < until)
@@ -106,14 +107,15 @@ struct EventFeed::Impl {
     CatalogChanges catalog_changes;
     std::shared_ptr<const catalog::CatalogReader> reader;
     struct Asked {
-        SteadyTime spoke{};  // last grid of the station
+        SteadyTime spoke{};  // when the last grid of the station came
         SteadyTime asked{};
         int asks_due = 0;
-        std::optional<UtcTime> ended;  // the volume whose end was published from the catalog
+        // Start of the volume whose end was last published from the catalog.
+        std::optional<UtcTime> ended;
     };
     std::map<std::string, Asked> asked;
     std::atomic<std::uint64_t> unreadable{0};
-    std::atomic<std::uint64_t> looks{0};  // at the catalog
+    std::atomic<std::uint64_t> looks{0};  // how often the feed has looked at the catalog
     const std::shared_ptr<WaitingChanges> waiting = std::make_shared<WaitingChanges>();
     std::thread thread;
 };
@@ -127,7 +129,7 @@ const catalog::CatalogReader* EventFeed::Impl::catalog() {
     return reader.get();
 }
 
-// Notes the newest grids and volumes that exist, without publishing them.
+// Notes the newest grids and volumes that exist, but publishes nothing about them.
 void EventFeed::Impl::begin() {
     const UtcTime now = now_utc();
     if (options.grids) {
@@ -213,8 +215,8 @@ void EventFeed::Impl::run() {
         try {
             take_turn(next_tick, next_look);
         } catch (const std::exception&) {
-            // Memory is short. Changes taken so far may be lost, so have clients request everything
-            // again.
+            // Memory is short. Changes that were taken already may be lost, so let clients request
+            // everything again.
             waiting->lose();
         }
     }

@@ -1,12 +1,14 @@
-// web/data/events/event_feed.h -- watches cache and catalog, and publishes what happens there.
+// web/data/events/event_feed.h -- watches the cache and the catalog, and publishes what happens
+// there.
 //
-// The daemon sends no messages. The feed sees each grid when the daemon renames it into the cache
-// (web/data/grids/cache_watch.h), and checks every two seconds which stations' databases were
-// written. The grids of a station show when its volumes begin and end. If a station has had no grid
-// for 30 seconds, the feed takes the beginnings and ends of its volumes from the catalog.
+// The daemon sends no messages to the data server. The feed sees each grid when the daemon renames
+// it into the cache (web/data/grids/cache_watch.h). Every two seconds it checks which stations'
+// databases were written. The grids of a station show when its volumes begin and end. If a station
+// has had no grid for 30 seconds, the feed takes the beginnings and ends of its volumes from the
+// catalog.
 //
-// Threads   Many threads may use it. One thread of its own reads and publishes.
-// Errors    A catalog that does not exist (yet) has no stations. unreadable() counts grids that
+// Threads   Many threads may use it. The feed has one thread of its own, which reads and publishes.
+// Errors    If the catalog does not exist (yet), it has no stations. unreadable() counts grids that
 //           cannot be read.
 #pragma once
 
@@ -30,13 +32,13 @@ struct EventFeedOptions {
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<EventHub> hub;
     std::chrono::seconds silent_after{1200};
-    std::chrono::milliseconds look_every{2000};  // at the catalog
+    std::chrono::milliseconds look_every{2000};  // time between two looks at the catalog
 };
 
 class EventFeed {
   public:
-    // Starts the feed. It publishes nothing about the grids and volumes that exist at that moment.
-    // It reads one row of each station.
+    // Starts the feed. It publishes nothing about grids and volumes that exist already. It reads
+    // one row of each station.
     static std::unique_ptr<EventFeed> open(EventFeedOptions options);
     EventFeed(const EventFeed&) = delete;
     EventFeed& operator=(const EventFeed&) = delete;
@@ -44,7 +46,7 @@ class EventFeed {
 
     // Returns the known facts about the stations, sorted.
     [[nodiscard]] std::vector<StationNews::Page> stations() const;
-    // Returns how often the feed has looked at the catalog. The events of these looks are
+    // Returns how often the feed has looked at the catalog. The events of these looks have been
     // published.
     [[nodiscard]] std::uint64_t looks() const;
     // Returns the number of grids that could not be read.

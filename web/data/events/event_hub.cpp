@@ -36,8 +36,8 @@ std::vector<std::string> EventHub::keys_of(const EventFilter& filter) {
     return keys;
 }
 
-// Marks the listeners of a group that have read everything as pending and adds them to `woken`. A
-// listener that is already pending needs no wake-up.
+// Marks the listeners of a group that have read everything as pending, and adds them to `woken`. A
+// listener that is pending already need not be woken.
 void EventHub::mark_group(const std::string& key, const Event& event, std::uint64_t number,
                           std::vector<std::shared_ptr<Listener>>& woken) {
     const auto group = groups_.find(key);
@@ -45,7 +45,7 @@ void EventHub::mark_group(const std::string& key, const Event& event, std::uint6
     for (Listener* listener : group->second) {
         listener->assume_locked();
         if (listener->is_pending_ || !listener->filter_.fits(event)) continue;
-        // A listener that is being destroyed waits for our mutex and is not woken.
+        // A listener that is being destroyed is not woken; it waits for our mutex.
         auto held = listener->weak_from_this().lock();
         if (!held) continue;
         listener->is_pending_ = true;
@@ -186,8 +186,8 @@ void EventHub::Listener::gather(std::size_t most) {
         if (filter_.fits(numbered.event)) unsent_ += *numbered.frame;
     }
     if (next_ < hub_->next_) return;
-    // The heartbeat carries the newest id. Otherwise a client whose station was quiet for long
-    // would be told on reconnecting that events were lost.
+    // The heartbeat carries the newest id. Otherwise a client that heard nothing for long would be
+    // told, when it reconnects, that events were lost.
     if (unsent_.empty() && beat_due_) {
         unsent_ =
             fmt::format(": heartbeat\nid: {}\n\n", event_id_text(hub_->run_, hub_->next_ - 1));
@@ -201,11 +201,11 @@ std::string EventHub::Listener::read(std::size_t most) {
     beat_due_ = false;
     std::string bytes = unsent_.substr(0, most);
     unsent_.erase(0, bytes.size());
-    // More is pending only if a frame was cut or events are left; otherwise the next call clears
-    // the flag.
+    // If no bytes were returned, nothing is pending. Otherwise a frame may have been cut, or events
+    // may be left; if not, the next call clears the flag.
     if (bytes.empty()) is_pending_ = false;
-    // Release the buffer, so that a thousand idle listeners do not each keep room for the longest
-    // event that they read.
+    // Release the buffer. Otherwise each of a thousand idle listeners would keep room for the
+    // longest event that it has read.
     if (unsent_.empty()) unsent_.shrink_to_fit();
     return bytes;
 }

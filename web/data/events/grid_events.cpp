@@ -22,8 +22,8 @@ using EventJson = nlohmann::ordered_json;
 constexpr std::size_t most_told_remembered = 4;  // of each domain and moment
 constexpr std::size_t most_times_listed = 32;
 
-// The numbers in the note of a living grid, such as "living: 5 sweeps have come, 9 of the last
-// volume stand" (pipeline/ingest/show_living.cpp).
+// The numbers in the note of a living grid (the grid of a growing volume), such as "living: 5
+// sweeps have come, 9 of the last volume stand" (pipeline/ingest/show_living.cpp).
 struct LivingCounts {
     int came = 0, standing = 0;
 };
@@ -115,7 +115,7 @@ void GridEvents::add_grid(const CacheChange& change, UtcTime now, std::vector<Ev
     const cache::GridName& name = change.grid;
     const std::filesystem::path& root = grids_->cache();
     const Result<int> opened = open_beneath(root, root / cache::relative_path(name));
-    // If the grid is already gone, the change that removed it will report so.
+    // If the grid is gone again, the change that removed it will report that.
     if (!opened) return;
     const Descriptor file(*opened);
     struct stat facts {};
@@ -162,7 +162,7 @@ void GridEvents::add_evicted(const Place& place, std::vector<UtcTime> times, Utc
                  {"count", times.size()},
                  {"from", format_utc(times.front())},
                  {"to", format_utc(times.back())}});
-    // List the times if they are few; otherwise `from` and `to` must do.
+    // List the times if there are only a few. Otherwise give only `from` and `to`.
     if (times.size() <= most_times_listed) {
         json["grids"] = EventJson::array();
         for (const UtcTime time : times)

@@ -1,15 +1,15 @@
 // web/data/events/grid_events.h -- turns changes in the cache into events.
 //
-// The header of a grid tells its kind: the living grid of a growing volume, the grid of an ended
-// volume, or a mosaic. Partials, the single sites' contributions to a mosaic, give no events.
+// The header of a grid tells what it is: the living grid of a growing volume, the grid of an ended
+// volume, or a mosaic. Partials, which are grids of single sites for a mosaic, give no events.
 //
 // The times of directories are coarse, so the watch may report an unchanged grid as changed.
-// Therefore grids written before the server began and files that were already reported give no
-// events of their own. If such files appear, as when a disk is mounted, a reset follows.
+// Therefore, grids that were written before the server began, and files that were already reported,
+// give no events. If such files appear, as when a disk is mounted, a reset follows.
 //
 // Threads   One thread at a time.
-// Errors    None are returned. A grid that cannot be read is counted, and reported if it is
-//           readable at its next change.
+// Errors    None are returned. A grid that cannot be read is counted. It is reported when it
+//           changes the next time, if it can be read then.
 #pragma once
 
 #include <cstdint>
@@ -29,20 +29,20 @@ namespace stormcellar::web {
 
 class GridEvents {
   public:
-    // Grids written before `began_ns` give no events. It is a time of the files' clock since the
-    // epoch.
+    // Grids that were written before `began_ns` give no events. `began_ns` is a time since the
+    // epoch by the clock that dates files.
     GridEvents(std::shared_ptr<Grids> grids, StationNews& book, std::int64_t began_ns)
         : grids_(std::move(grids)), book_(book), began_ns_(began_ns) {}
 
-    // Returns the events of these changes, in their order. If a grid changed several times, the
-    // last change counts. Grids that are gone give one event for each domain and moment.
+    // Returns the events of these changes, in their order. If a grid changed several times, only
+    // the last change counts. All grids of a domain and moment that are gone give one event.
     [[nodiscard]] std::vector<Event> of(std::span<const CacheChange> changes, UtcTime now);
 
     // Returns the number of grids that could not be read.
     [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
   private:
-    // Identifies a file. A later file of the same name differs in a field.
+    // Identifies a file. A later file with the same name differs in a member.
     struct Told {
         UtcTime time;
         std::uint64_t inode = 0;
@@ -60,13 +60,13 @@ class GridEvents {
     StationNews& book_;
     const std::int64_t began_ns_;
     std::uint64_t unreadable_ = 0;
-    // True if old files appeared, as when a disk is mounted. They may be too many to report one by
-    // one, so a reset follows.
+    // True if old files appeared, as when a disk is mounted. There may be too many to report each,
+    // so a reset follows.
     bool came_back_ = false;
-    std::map<Place, std::vector<Told>> told_;  // the last few reported files
+    std::map<Place, std::vector<Told>> told_;  // the files that were last reported
 };
 
-// Returns the time of the clock by which the kernel dates files, since the epoch.
+// Returns the time since the epoch by the clock with which the kernel dates files.
 [[nodiscard]] std::int64_t file_clock_ns();
 
 }  // namespace stormcellar::web

@@ -8,8 +8,9 @@
 namespace stormcellar::web {
 namespace {
 
-// Until the header of a volume comes, the time of the first radial names the volume. The start in
-// the header differs from that time by up to ten seconds.
+// Two starts that differ by less than this are of one volume. Until the header of a volume comes,
+// the time of its first radial stands for its start, and the start in the header differs by up to
+// ten seconds.
 constexpr std::chrono::seconds same_volume_within{15};
 
 Event station_event(EventType type, const std::string& station, UtcTime now,
@@ -72,7 +73,8 @@ std::vector<Event> StationNews::look(UtcTime now) {
     std::vector<Event> events;
     const MutexLock lock(mutex_);
     for (auto& [station, page] : pages_) {
-        if (page.heard) page.heard = std::min(*page.heard, now);  // the clock may be set back
+        // The clock may have been set back.
+        if (page.heard) page.heard = std::min(*page.heard, now);
         if (page.is_silent || !page.spoke() || now - *page.spoke() <= silent_after_) continue;
         page.is_silent = true;
         events.push_back(

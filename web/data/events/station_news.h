@@ -1,8 +1,8 @@
-// web/data/events/station_news.h -- when each station was last heard, and its newest volume.
+// web/data/events/station_news.h -- records when each station was last heard, and its newest
+// volume.
 //
-// This machine's clock gives the times of arrival, and the radar's clock the times of volumes. A
-// volume from the future (by is_believed()) is never the newest, since no volume would come after
-// it.
+// Times of arrival are by this machine's clock, and times of volumes by the radar's clock. A volume
+// in the future (by is_believed()) is never the newest, because no volume would come after it.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,7 +25,7 @@ struct SeenVolume {
     int vcp = 0;  // 0: not known
 };
 
-// The end of a volume that has no grid.
+// The end of a volume of which there is no grid.
 struct EndedVolume {
     UtcTime start;
     int sweeps = 0;
@@ -41,22 +41,23 @@ class StationNews {
     struct Page {
         std::string station;
         std::optional<UtcTime> newest_volume;  // its start
-        std::optional<UtcTime> heard;          // when something last came
+        std::optional<UtcTime> heard;          // when something came from it last
         bool is_silent = false;
-        // Returns when something last came; if nothing came yet, the start of the newest volume.
+        // Returns when something came last. If nothing has come yet, returns the start of the
+        // newest volume.
         [[nodiscard]] std::optional<UtcTime> spoke() const { return heard ? heard : newest_volume; }
     };
 
-    // Notes the known facts when the server begins, without events.
+    // Notes what is known when the server begins. Makes no events.
     void note(const std::string& station, std::optional<UtcTime> newest_volume,
               std::optional<UtcTime> heard, UtcTime now);
-    // Notes that something came, with its volume if known. Returns station_spoke if a silent
-    // station was heard recently, and volume_begun if the volume starts over 15 seconds after the
-    // newest.
+    // Notes that something came, with its volume if that is known. Returns station_spoke if the
+    // station was silent and has now been heard. Returns volume_begun if the volume starts more
+    // than 15 seconds after the newest.
     [[nodiscard]] std::vector<Event> hear(const std::string& station,
                                           std::optional<SeenVolume> volume, UtcTime heard,
                                           UtcTime now);
-    // Returns station_silent for each station that has become silent.
+    // Returns a station_silent for each station that has become silent.
     [[nodiscard]] std::vector<Event> look(UtcTime now);
 
     [[nodiscard]] std::vector<Page> pages() const;  // sorted by station

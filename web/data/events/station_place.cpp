@@ -15,8 +15,8 @@ std::optional<StationPlace> place_of_station(Grids* grids, std::string_view icao
         const auto grid = grids->find(icao, moment, *newest);
         if (!grid) continue;
         const auto& sites = (*grid)->file.description().sites;
-        // A mosaic may have a name of four letters, too, so check that the grid has this site
-        // alone.
+        // A mosaic may also have a name of four letters, so check that this site alone made the
+        // grid.
         if (sites.size() != 1 || sites.front().icao != icao) continue;
         return StationPlace{{},
                             {},

@@ -18,8 +18,8 @@ namespace {
 constexpr std::uint32_t watched_events = IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_CREATE |
                                          IN_DELETE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR |
                                          IN_DONT_FOLLOW | IN_EXCL_UNLINK;
-// A file's time may lag behind the clock by a tick, and network file systems have clocks of their
-// own.
+// The time of a file may be behind the clock by a tick, and network file systems have clocks of
+// their own. This slack covers both.
 constexpr std::int64_t clock_slack_ns = 2'000'000'000;
 
 std::int64_t nanoseconds_of(const timespec& time) {
@@ -36,9 +36,9 @@ struct CloseListing {
     void operator()(DIR* listing) const { ::closedir(listing); }
 };
 
-// Returns the sorted names of a directory's directories, or of its regular files, without names
-// that begin with a dot; none if they cannot be read. Includes entries of unknown type, which the
-// caller checks.
+// Returns the sorted names of the directories, or of the regular files, in a directory. Leaves out
+// names that begin with a dot. Includes entries of unknown type, which the caller must check.
+// Returns none if the names cannot be read.
 std::optional<std::vector<std::string>> entry_names(const std::filesystem::path& directory,
                                                     bool directories) {
     const int number = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -64,7 +64,7 @@ CacheTree::CacheTree(std::filesystem::path cache, int notify, CacheWatch::Listen
     : cache_(std::move(cache)), notify_(notify), listener_(std::move(listener)) {}
 
 std::filesystem::path CacheTree::path_of(const Place& place) const {
-    // The cache itself may be a link; "DIR/." is the directory that it points to.
+    // The cache itself may be a link. "DIR/." is the directory that the link points to.
     if (place.domain.empty()) return cache_ / ".";
     std::filesystem::path path = cache_ / place.domain;
     if (place.moment) path /= std::string(level2::moment_name(*place.moment));
@@ -80,12 +80,12 @@ void CacheTree::tell_everything() {
     listener_({CacheEvent::everything, {}});
 }
 
-// Sets the watch before noting the time and reading the names, so that a change in between is
+// Sets the watch before it notes the time and reads the names, so that a change in between is
 // either read or reported.
 std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     const std::filesystem::path path = path_of(place);
     struct stat facts {};
-    // A directory that cannot be read is not gone, so keep its known contents.
+    // If a directory cannot be read, it is not gone, so keep what is known about it.
     enum class Found { directory, nothing, unreadable };
     const auto find = [&] {
         if (::lstat(path.c_str(), &facts) != 0)
@@ -105,7 +105,7 @@ std::optional<bool> CacheTree::look(const Place& place, Seen& seen) {
     if (found == Found::nothing) return std::nullopt;
     if (found == Found::unreadable || seen.watch < 0) blind_ = true;
     if (found == Found::unreadable) return false;
-    // Names that changed within the last tick of the clock may have left no mark in the time.
+    // Names that changed within the last tick of the clock may not have changed the time.
     const std::int64_t modified_ns = nanoseconds_of(facts.st_mtim);
     const bool must_read = !is_the_same() || modified_ns != seen.modified_ns ||
                            seen.read_ns < modified_ns + clock_slack_ns;
@@ -204,8 +204,8 @@ void CacheTree::scan_day(const Place& place) {
     compare_day(place, day, *names, read_before_ns);
 }
 
-// Reports new names as come and missing names as gone. A file under a known name has changed if its
-// ctime is not clearly older than the last read.
+// Reports new names as come and missing names as gone. Reports a file with a known name as changed
+// unless its ctime is clearly older than the last read.
 void CacheTree::compare_day(const Place& place, Day& day, const std::vector<std::string>& names,
                             std::int64_t read_before_ns) {
     std::vector<std::pair<UtcTime, const std::string*>> found;
@@ -323,7 +323,7 @@ void CacheTree::handle(int watch, std::uint32_t mask, std::string_view name) {
     const Place place = found->second;
     const bool is_root = place.domain.empty();
     if ((mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_UNMOUNT | IN_IGNORED)) != 0) {
-        // If another directory went, the directory above reports it.
+        // If another directory is gone, the events of the directory above it report that.
         if (is_root) root_gone_ = true;
         return;
     }
@@ -349,7 +349,8 @@ void CacheTree::handle_directory(const Place& place, std::uint32_t mask, const s
     }
 }
 
-// Notes the time of the directory after an event, so that the next scan does not read it again.
+// Notes the time of the directory after an event, so that the next scan need not read the directory
+// again.
 void CacheTree::note_time(const Place& place, Seen& seen) const {
     struct stat facts {};
     if (::lstat(path_of(place).c_str(), &facts) != 0) return;
@@ -365,10 +366,10 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
     const bool is_known = at != day->times.end() && *at == *time;
     struct stat facts {};
     const bool has_facts = ::lstat((path_of(place) / std::string(name)).c_str(), &facts) == 0;
-    // A file that cannot be read is not gone; a scan looks again.
+    // If a file cannot be read, it is not gone. A scan will look again.
     if (!has_facts && errno != ENOENT && errno != ENOTDIR) return;
     if (!has_facts || !S_ISREG(facts.st_mode)) {
-        // If a grid came and went before its first event was read, report it as gone, too, but
+        // If a grid came and went before its first event was read, report it as gone, too, but only
         // once.
         const bool has_come = (mask & (IN_MOVED_TO | IN_CLOSE_WRITE)) != 0;
         if (!is_known && (has_facts || !has_come || day->gone == *time)) return;
@@ -377,9 +378,11 @@ void CacheTree::handle_file(const Place& place, std::uint32_t mask, std::string_
         note_time(place, day->seen);
         return tell(CacheEvent::went, place, *time);
     }
-    // A new file is reported when it is closed. A new hard link is never written, so report it now.
+    // A new file is reported when it is closed. But a new hard link is never written, so report it
+    // now.
     if ((mask & IN_CREATE) != 0 && facts.st_nlink < 2) return;
-    if ((mask & (IN_DELETE | IN_MOVED_FROM)) != 0) return;  // the event of its new file follows
+    // An event for the new file of this name follows.
+    if ((mask & (IN_DELETE | IN_MOVED_FROM)) != 0) return;
     if (!is_known) day->times.insert(at, *time);
     day->gone.reset();
     note_time(place, day->seen);

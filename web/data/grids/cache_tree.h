@@ -1,4 +1,4 @@
-// web/data/grids/cache_tree.h -- the directories of a cache, as a cache watch knows them.
+// web/data/grids/cache_tree.h -- the directories of a cache, for the watch of the cache.
 //
 // A CacheTree reads directories, sets watches on them, and reports grids that came, went or
 // changed. Like the store, it follows no symbolic links below the cache's directory.
@@ -26,33 +26,33 @@ class CacheTree {
     // `notify` is an inotify descriptor, or -1 to watch nothing.
     CacheTree(std::filesystem::path cache, int notify, CacheWatch::Listener listener);
 
-    // Reads every directory that is new or whose time changed since it was read.
+    // Reads each directory that is new, or whose time has changed since it was read.
     void scan();
-    // Handles bytes read from the inotify descriptor. Returns false if events were lost or the
-    // cache itself was moved or removed; the caller must then call scan().
+    // Handles bytes that were read from the inotify descriptor. Returns false if events were lost,
+    // or if the cache itself was moved or removed; the caller must then call scan().
     [[nodiscard]] bool take(const char* events, std::size_t size);
 
     [[nodiscard]] bool is_there() const { return is_there_; }
-    // Returns true if some directory could not be watched or read.
+    // Returns true if some directory could not be watched, or could not be read.
     [[nodiscard]] bool is_blind() const { return blind_; }
-    // Call after events were lost. Reports that everything may have changed, and makes the next
+    // Call it after events were lost. Reports that everything may have changed, and makes the next
     // scan() read every directory.
     void forget_times();
     // Reports that everything may have changed.
     void tell_everything();
 
   private:
-    // State of a directory when it was last read.
+    // The state of a directory when it was last read.
     struct Seen {
         int watch = -1;
         std::uint64_t device = 0, inode = 0;
         std::int64_t modified_ns = 0;
-        std::int64_t read_ns = 0;  // by the clock of files
+        std::int64_t read_ns = 0;  // by the clock that dates files
     };
     struct Day {
         Seen seen;
         std::vector<UtcTime> times;  // ascending
-        // The last grid that an event reported as gone. Further events of its removal may follow.
+        // The last grid that an event reported as gone. More events of its removal may follow.
         std::optional<UtcTime> gone;
     };
     struct OfMoment {
@@ -63,8 +63,8 @@ class CacheTree {
         Seen seen;
         std::map<level2::Moment, OfMoment> moments;
     };
-    // Identifies a watched directory: the cache (no domain), a domain (no moment), a moment (no
-    // day) or a day.
+    // Names a watched directory: the cache (no domain), a domain (no moment), a moment (no day) or
+    // a day.
     struct Place {
         std::string domain;
         std::optional<level2::Moment> moment;
@@ -72,8 +72,8 @@ class CacheTree {
     };
 
     [[nodiscard]] std::filesystem::path path_of(const Place& place) const;
-    // Watches the directory and notes its time. Returns true if its names must be read; none if it
-    // does not exist.
+    // Watches the directory and notes its time. Returns true if its names must be read, and none if
+    // it does not exist.
     std::optional<bool> look(const Place& place, Seen& seen);
     void scan_domain(const std::string& domain);
     void scan_moment(const std::string& domain, level2::Moment moment);

@@ -26,7 +26,8 @@ using WatchClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds look_for_missing_every{1};
 constexpr std::chrono::seconds look_when_blind_every{2};
 constexpr std::chrono::seconds look_at_times_every{60};
-// If no descriptor is left to wake the thread, the thread checks for its end this often.
+// If no descriptor is left with which to wake the thread, the thread checks this often whether it
+// must end.
 constexpr int look_for_the_end_every_ms = 100;
 constexpr int try_again_after_ms = 1000;
 
@@ -39,7 +40,7 @@ struct CacheWatch::Impl {
           stop(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
           tree(std::move(cache), notify.number(), std::move(listener)) {}
 
-    // Reads all events that wait. If it throws, for want of memory, the next call begins with a
+    // Reads all events that wait. If it throws because memory is short, the next call begins with a
     // look at everything.
     void read_events() STORMCELLAR_REQUIRES(mutex) {
         const bool has_missed = std::exchange(is_missing_events, true);
@@ -110,7 +111,7 @@ std::unique_ptr<CacheWatch> CacheWatch::open(std::filesystem::path cache, Listen
 CacheWatch::~CacheWatch() {
     impl_->is_stopping = true;
     const std::uint64_t one = 1;
-    // Adding to an eventfd counter fails only when it is full, which this one never is.
+    // Adding to an eventfd counter fails only if it is full, which this counter never is.
     [[maybe_unused]] const ssize_t written = ::write(impl_->stop.number(), &one, sizeof one);
     impl_->thread.join();
 }

@@ -1,4 +1,4 @@
-// web/data/grids/compressed.h -- bodies compressed for transfer (Content-Encoding).
+// web/data/grids/compressed.h -- compresses bodies for transfer (Content-Encoding).
 //
 // The levels were chosen by measurement; docs/web/packed-grid.md has the figures.
 //
@@ -16,14 +16,14 @@ namespace stormcellar::web {
 
 enum class Coding { identity, gzip, zstd };
 [[nodiscard]] std::string_view coding_name(Coding coding);  // "" for identity
-// Returns zstd if the client takes it, else gzip if it takes that, else identity.
+// Returns zstd if the client accepts it, else gzip if the client accepts that, else identity.
 [[nodiscard]] Coding coding_for(const Request& request);
 
 [[nodiscard]] Result<std::string> compressed(std::string_view bytes, Coding coding);
 inline constexpr int gzip_level = 4;
 inline constexpr int zstd_level = 5;
-// Compresses with the levels `gzip_once_level` and `zstd_once_level`, for bytes that are compressed
-// once and sent often.
+// Compresses bytes that will be sent often, with the levels `gzip_once_level` and
+// `zstd_once_level`.
 [[nodiscard]] Result<std::string> compressed_once(std::string_view bytes, Coding coding);
 inline constexpr int gzip_once_level = 9;
 inline constexpr int zstd_once_level = 19;

@@ -20,7 +20,7 @@
 
 namespace stormcellar::web {
 
-// Identifies a file. A later file of the same name differs in a field.
+// Identifies a file. A later file with the same name differs in a member.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;
@@ -31,8 +31,8 @@ namespace {
 
 constexpr std::size_t most_evicted_remembered = 65536;
 constexpr std::size_t opening_locks = 32;
-// After this time, look at the file itself, because the watch misses changes of the directories
-// above the cache.
+// After this time, look at the file itself again, because the watch does not see changes of
+// directories above the cache.
 constexpr std::chrono::milliseconds look_again_after{100};
 
 GridFileStamp stamp_of_grid(const struct stat& facts) {
@@ -40,7 +40,7 @@ GridFileStamp stamp_of_grid(const struct stat& facts) {
             std::int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + facts.st_mtim.tv_nsec};
 }
 
-// Counts the bytes that an open grid holds in memory, without codes that are mapped.
+// Returns how much memory an open grid holds. Codes that are mapped do not count.
 std::uint64_t memory_of(const cache::GridFile& file) {
     const grid::BrickView view = file.view();
     std::uint64_t bytes = 16384 + view.bricks.size_bytes() + view.states.size();
@@ -71,12 +71,12 @@ struct Grids::Impl {
     struct Open {
         GridFileStamp stamp;
         std::shared_ptr<const OpenGrid> grid;
-        // Time at which the open file was last compared with the file of its name, and the count of
-        // changes then.
+        // The time at which the open file was last compared with the file that has its name now,
+        // and the count of changes at that time.
         std::chrono::steady_clock::time_point seen_at{};
         std::uint64_t seen_changes = 0;
     };
-    // Returns the grid that was checked a moment ago if nothing changed since.
+    // Returns the grid if it was compared a moment ago and nothing has changed since.
     std::shared_ptr<const OpenGrid> find_seen(const cache::GridName& name);
 
     const GridsOptions options;
@@ -87,8 +87,8 @@ struct Grids::Impl {
     // Counts of changes by group.
     std::map<std::string, std::uint64_t, std::less<>> changes_of
         STORMCELLAR_GUARDED_BY(names_mutex);
-    // Numbers of the last eviction of each name. Entries of `evicted_order` with other numbers are
-    // out of date.
+    // The number of the last eviction of each name. An entry of `evicted_order` with another number
+    // is out of date.
     std::map<cache::GridName, std::uint64_t> evicted STORMCELLAR_GUARDED_BY(names_mutex);
     std::deque<std::pair<std::uint64_t, cache::GridName>> evicted_order
         STORMCELLAR_GUARDED_BY(names_mutex);
@@ -96,13 +96,13 @@ struct Grids::Impl {
 
     Mutex open_mutex;
     RecentlyUsed<cache::GridName, Open> open STORMCELLAR_GUARDED_BY(open_mutex);
-    std::array<Mutex, opening_locks> opening;  // each for the grids whose paths hash to it
+    std::array<Mutex, opening_locks> opening;  // each is for the grids whose paths hash to it
 
     Mutex listeners_mutex;
     std::vector<std::function<void(const CacheChange&)>> listeners
         STORMCELLAR_GUARDED_BY(listeners_mutex);
 
-    std::unique_ptr<CacheWatch> watch;  // declared last, so that it ends first
+    std::unique_ptr<CacheWatch> watch;  // the last member, so that it ends first
 };
 
 void Grids::Impl::remember_evicted(const cache::GridName& name) {
@@ -248,7 +248,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
         return fail(ErrorCode::not_found, "there is no such domain or time");
     }
     const std::filesystem::path path = impl_->options.cache / cache::relative_path(name);
-    // A link on the way is not followed, so the file is not found.
+    // Do not follow a link on the way; then the file is not found.
     const Result<struct stat> facts = look_beneath(impl_->options.cache, path);
     if (!facts && facts.error().code != ErrorCode::not_found) return pass_on(facts);
     if (!facts || !S_ISREG(facts->st_mode)) {
@@ -257,7 +257,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     }
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
 
-    // If several requests want the same grid at once, one opens it and the others wait.
+    // If several requests want the same grid at the same time, one opens it and the others wait.
     const std::size_t hash = std::hash<std::string>{}(path.native());
     const MutexLock lock(impl_->opening[hash % opening_locks]);
     if (auto kept = impl_->find_open(name, stamp_of_grid(*facts))) return kept;
@@ -266,8 +266,8 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     std::string id = fmt::format("{:016x}", file->checksum());
     auto grid = std::make_shared<const OpenGrid>(
         OpenGrid{std::move(*file), name.domain, moment, time, std::move(id)});
-    // If the file was replaced after the look, the stamp does not match, and the next request opens
-    // the new file.
+    // If the file was replaced after the look, the stamp does not match the new file, and the next
+    // request opens that.
     impl_->keep_open(name, stamp_of_grid(*facts), grid);
     return grid;
 }

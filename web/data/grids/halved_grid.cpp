@@ -13,7 +13,7 @@ using grid::BrickEntry;
 using grid::BrickKind;
 using grid::CellStatus;
 
-// The codes of one brick of any kind, with the states of its cells as codes below 3.
+// The codes of one brick of any kind. States of cells are codes below 3.
 template <class Code>
 class BrickCodes {
   public:
@@ -52,7 +52,7 @@ class BrickCodes {
     std::array<Code, grid::brick_cells> codes_{};
 };
 
-// Makes one cell from up to four.
+// Makes one cell of up to four.
 class CellHalver {
   public:
     CellHalver(const grid::Quantization& quantization, HalvedBy by, bool by_magnitude)
@@ -99,7 +99,7 @@ class CellHalver {
     HalvedBy by_;
     bool by_magnitude_;
     static constexpr std::uint16_t ambiguous_code = 3;
-    std::array<std::uint32_t, 4> counts_{};  // by state
+    std::array<std::uint32_t, 4> counts_{};  // how many of the cells have each state
     std::uint32_t ambiguous_ = 0;
     std::uint32_t sum_ = 0;
     std::uint16_t greatest_ = 0;
@@ -127,8 +127,8 @@ class GridHalver {
     }
 
   private:
-    // Returns the state that all source bricks of a halved brick have in common; none if they
-    // differ. Most bricks are uniform, so this saves reading their cells.
+    // Returns the state that all source bricks of a halved brick have; none if they differ. Most
+    // bricks are uniform, so this often makes it unnecessary to read their cells.
     [[nodiscard]] std::optional<CellStatus> uniform_above(int bx, int by, int bz) const {
         std::optional<CellStatus> status;
         for (int x = 2 * bx; x < std::min(2 * bx + 2, from_.bricks_x); ++x) {
@@ -166,7 +166,7 @@ class GridHalver {
         writer.put_codes(brick, codes_.data(), extent);
     }
 
-    // Returns the column of the halved grid that covers the columns 2 x, 2 x + 1 and 2 y, 2 y + 1
+    // Returns the column of the halved grid that covers columns 2 x, 2 x + 1 and rows 2 y, 2 y + 1
     // of a source brick.
     Code* halved_column(int half_x, int half_y, int x, int y) {
         constexpr int half_edge = grid::brick_edge / 2;
@@ -175,7 +175,7 @@ class GridHalver {
                    grid::brick_edge;
     }
 
-    // Takes the greatest code, because the maximum prefers states in the order of their numbers.
+    // Takes the greatest code. This also ranks the states, because they are the smallest codes.
     // Beyond the grid's edge, a uniform brick continues, and cells of other bricks are not seen.
     void take_greatest(const grid::BrickExtent& extent, int half_x, int half_y) {
         for (int x = 0; 2 * x < extent.x; ++x) {
@@ -212,7 +212,7 @@ class GridHalver {
     const grid::BrickView& from_;
     grid::BrickGrid& to_;
     CellHalver cell_;
-    bool by_code_;  // the greatest code has the greatest value
+    bool by_code_;  // a greater code means a greater value
     BrickCodes<Code> source_;
     std::array<Code, grid::brick_cells> codes_{};
 };

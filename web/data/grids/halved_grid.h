@@ -1,19 +1,19 @@
-// web/data/grids/halved_grid.h -- grids with half the columns and rows, for viewing large areas.
+// web/data/grids/halved_grid.h -- makes grids with half the columns and rows, to show large areas.
 //
-// A cell of the halved grid represents the four cells that it covers on its level (fewer at the
+// A cell of the halved grid stands for the four cells that it covers on its level (fewer at the
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
-// exact. Cells that are not seen do not count. If all four are not seen, so is the new cell. Cells
-// that are seen are joined by
-//   maximum  the largest value if there is one (for VEL, which has a sign, the value farthest
+// exact. Cells that are not seen do not count; if none of the four is seen, the new cell is not
+// seen. The cells that are seen become one by
+//   maximum  the largest value, if there is one (for VEL, which has a sign, the value farthest
 //            from 0); else range folded if one cell is, so that such air never looks clear;
 //            else no echo
 //   mean     range folded if most cells are; else no echo if those cells outnumber the values;
 //            else the mean of the values as they are stored (dBZ for REF)
-// A grid that is halved again is made from the halved one, so `mean` is then a mean of means.
+// A grid that is halved twice is made from the halved grid, so its `mean` is a mean of means.
 //
 // Threads   Pure functions.
 // Errors    See halved().
-// Accuracy  Each halving rounds a mean to the nearest code, an error of at most half a step.
+// Accuracy  Each halving rounds a mean to the nearest code. The error is at most half a step.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,15 @@
 
 namespace stormcellar::web {
 
-enum class HalvedBy : std::uint32_t { maximum = 1, mean = 2 };  // numbers of the packed form
+// The numbers are those of the packed form.
+enum class HalvedBy : std::uint32_t { maximum = 1, mean = 2 };
 [[nodiscard]] std::optional<HalvedBy> halved_by_from_name(std::string_view name);
 [[nodiscard]] std::string_view halved_by_name(HalvedBy by);
 
 inline constexpr int most_halvings = 6;
 
-// Returns the spec of a halved grid. Its columns are in the middle of the pairs of columns that
-// they cover, so the offset from the center may be any fraction of a cell.
+// Returns the spec of a halved grid. Each of its columns is in the middle of the columns that it
+// covers, so the offset from the center may be any fraction of a cell.
 [[nodiscard]] grid::GridSpec halved_spec(const grid::GridSpec& spec);
 
 // Returns the grid halved `times` times. Errors: bad_argument for `times` outside 1 to

@@ -16,7 +16,7 @@ std::uint64_t size_in_budget(const std::string& key, const Kept& value) {
            overhead_bytes;
 }
 
-// Turns an exception into an error, because other threads wait for the result.
+// Calls `make`, and turns an exception into an error, because other threads wait for the result.
 Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
     try {
         Result<Kept> made = make();
@@ -32,11 +32,11 @@ Result<Kept> made_in_file(const std::function<Result<Kept>()>& make) {
 
 }  // namespace
 
-// A value that one thread makes while others wait for it. KeptAnswers::mutex_ guards it.
+// A value that one thread makes while other threads wait for it. KeptAnswers::mutex_ guards it.
 struct KeptAnswers::Making {
     ConditionVariable done;
     std::optional<Result<Kept>> result;
-    bool is_over = false;  // over without a result: memory was short
+    bool is_over = false;  // ended without a result, because memory was short
 };
 
 std::optional<Kept> KeptAnswers::find(const std::string& key) {
@@ -57,7 +57,7 @@ Result<Kept> KeptAnswers::find_or_make(const std::string& key,
     const auto ours = std::make_shared<Making>();
     {
         const MutexLock lock(mutex_);
-        // Another thread may have made the value since the call of find().
+        // Another thread may have made the value since find() was called.
         if (const Kept* found = kept_.find(key)) return *found;
         if (const auto other = making_.find(key); other != making_.end()) {
             const std::shared_ptr<Making> theirs = other->second;

@@ -1,8 +1,8 @@
 // web/data/grids/kept_answers.h -- keeps answers in memory within a budget.
 //
-// Units     The budget is in bytes; each value counts as its own size plus 256.
-// Threads   Many threads may use it. If several want the same value at once, one makes it and the
-//           others wait for it.
+// Units     The budget is in bytes. Each value counts as its own size plus 256.
+// Threads   Many threads may use it. If several want the same value at the same time, one makes it
+//           and the others wait.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace stormcellar::web {
 struct Kept {
     Piece bytes;
     std::string etag;   // with quotes
-    std::string notes;  // further text for the door, for example the content type
+    std::string notes;  // more text for the caller, for example the content type
 };
 
 class KeptAnswers {
@@ -33,12 +33,12 @@ class KeptAnswers {
 
     // Returns the value if it is kept, else none. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const std::string& key);
-    // Returns the value if it is kept. Otherwise makes it with `make` and keeps it, in a memory
-    // file if it has 256 KiB or more. Errors are not kept; an exception becomes an error. A value
-    // larger than a quarter of the budget is returned but not kept.
+    // Returns the value. If it is not kept, makes it with `make` and keeps it, in a memory file if
+    // it has 256 KiB or more. Does not keep errors; an exception becomes an error. Does not keep a
+    // value that is larger than a quarter of the budget.
     [[nodiscard]] Result<Kept> find_or_make(const std::string& key,
                                             const std::function<Result<Kept>()>& make);
-    // Drops every value whose key begins with this text.
+    // Drops all values whose keys begin with this text.
     void forget(std::string_view prefix);
     [[nodiscard]] std::uint64_t bytes() const;
 

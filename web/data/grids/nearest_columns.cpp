@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t brick_side = grid::brick_edge;
 
-// Copies the part of a column that is in one layer of bricks: sixteen codes, cut at the top of the
-// grid.
+// Copies the part of a column that is in one layer of bricks. These are sixteen codes, or fewer at
+// the top of the grid.
 template <class Code>
 void copy_column(const grid::BrickView& from, int x, int y, int bz, Code* to, int levels) {
     const std::size_t brick = from.brick_index(x / grid::brick_edge, y / grid::brick_edge, bz);

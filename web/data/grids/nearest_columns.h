@@ -1,9 +1,9 @@
 // web/data/grids/nearest_columns.h -- resamples a grid onto the columns of another plane. Each
-// column there takes the states and codes of the grid's nearest column.
+// column of the plane takes the states and codes of the nearest column of the grid.
 //
 // Threads   Any thread may call lay().
 // Errors    None. Columns beyond the grid are not seen.
-// Accuracy  Echo is displaced by at most half the diagonal of a column of the grid.
+// Accuracy  Echo moves by at most half the diagonal of a column of the grid.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace stormcellar::web {
 
 class NearestColumns {
   public:
-    // Finds, for each column of `plane`, the nearest column of grids with the spec `from`.
+    // Finds the nearest column of grids with the spec `from`, for each column of `plane`.
     NearestColumns(const grid::GridSpec& from, const grid::GridSpec& plane);
 
-    // Returns the grid on the plane. The grid must have the spec that the constructor got as
-    // `from`; that spec and the plane must have equally many levels.
+    // Returns the grid on the plane. The grid must have the spec `from` of the constructor. This
+    // spec and the plane must have the same number of levels.
     [[nodiscard]] grid::BrickGrid lay(const grid::BrickView& from) const;
 
   private:

@@ -52,7 +52,7 @@ PackedHeader header_of(const PackedSource& source) {
     return header;
 }
 
-// Counts of the blocks of states and of the bricks with codes in a range of the table.
+// The numbers of blocks of states, and of bricks with codes, in a range of the table.
 struct BlockCounts {
     std::uint32_t states = 0, codes = 0;
 };
@@ -75,7 +75,7 @@ class PackedWriter {
     void append(const void* from, std::size_t size) {
         bytes_.append(static_cast<const char*>(from), size);
     }
-    // Aligns the end and returns where the next section begins.
+    // Aligns the end of the bytes, and returns where the next section begins.
     std::uint64_t begin_section() {
         bytes_.resize((bytes_.size() + section_alignment - 1) / section_alignment *
                       section_alignment);
@@ -163,7 +163,7 @@ void append_blocks(PackedWriter& writer, const PackedSource& source, std::size_t
     }
 }
 
-// Returns the states of a stored brick, four cells a byte, and appends its codes of values to
+// Returns the states of a stored brick, four cells to a byte. Appends the codes of its values to
 // `values`.
 template <class Code>
 std::array<std::uint8_t, states_block_bytes> split_brick(const std::byte* bytes,
@@ -194,8 +194,8 @@ void subtract_neighbors(std::string& codes) {
     }
 }
 
-// Appends the states of all bricks that are not uniform, in the order of the table, and then the
-// codes of values.
+// Appends the states of all bricks that are not uniform, in the order of the table, and after these
+// the codes of values.
 void append_values(PackedWriter& writer, const PackedSource& source) {
     const grid::BrickView& view = source.view;
     const auto code_bytes = static_cast<std::size_t>(view.quantization.code_bytes);

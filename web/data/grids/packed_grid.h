@@ -1,8 +1,8 @@
 // web/data/grids/packed_grid.h -- the packed form of a grid, for browsers.
 //
 // docs/web/packed-grid.md specifies the bytes; the struct below asserts the offsets. A client gets
-// the grid whole, or first its table and then its bricks by ranges of the table. Both have the same
-// form, in which the header says which sections follow.
+// the grid as a whole, or first its table and then its bricks by ranges of the table. All of these
+// have the same form, and the header says which sections follow.
 //
 // Units     As in the cache's files (docs/cache-format.md): meters, degrees, milliseconds.
 // Threads   Pure functions.
@@ -56,14 +56,14 @@ struct PackedHeader {
     std::uint32_t part = 0;       // PackedPart
     std::uint32_t halved = 0;     // number of halvings of columns and rows
     std::uint32_t halved_by = 0;  // 0 not halved, 1 maximum, 2 mean
-    // Bit 0: the volume is partial; bit 1: the grid is provisional; bit 2: only cells with values
+    // Bit 0: the volume is partial. Bit 1: the grid is provisional. Bit 2: only cells with values
     // have codes.
     std::uint32_t flags = 0;
-    std::uint32_t first_brick = 0, end_brick = 0;      // the bricks whose states and codes follow
-    std::uint32_t first_states = 0, states_count = 0;  // blocks, numbered as in the table
+    std::uint32_t first_brick = 0, end_brick = 0;      // the range whose states and codes follow
+    std::uint32_t first_states = 0, states_count = 0;  // number of blocks; numbered as in the table
     std::uint32_t first_codes = 0, codes_count = 0;
     std::uint32_t site_count = 0, table_count = 0;
-    std::uint64_t levels_offset = 0;  // nz doubles; 0: absent, as for the other offsets
+    std::uint64_t levels_offset = 0;  // nz doubles; an offset of 0 means that the section is absent
     std::uint64_t sites_offset = 0;
     std::uint64_t table_offset = 0;
     std::uint64_t states_offset = 0;
@@ -121,7 +121,7 @@ struct PackedSite {
 };
 static_assert(sizeof(PackedSite) == 32);
 
-// One brick. `at` is its index among the blocks of states (kind 1) or among the codes of stored
+// One brick. `at` is its index among the blocks of states (kind 1), or among the codes of stored
 // bricks (kind 2).
 struct PackedBrick {
     std::uint8_t kind = 0;   // grid::BrickKind
@@ -136,14 +136,14 @@ static_assert(offsetof(PackedBrick, min_code) == 4);
 static_assert(offsetof(PackedBrick, max_code) == 6);
 static_assert(offsetof(PackedBrick, at) == 8);
 
-// The grid to pack, and facts about the grid for the header.
+// The grid to pack, and what the header says about it.
 struct PackedSource {
     const cache::GridDescription* description = nullptr;  // has the spec of `view`
     grid::BrickView view;
     std::uint64_t id = 0;
     std::uint32_t halved = 0, halved_by = 0;
-    // If true, a whole grid has the states of all bricks that are not uniform, but codes only of
-    // cells with values.
+    // If true, a whole grid has the states of all bricks that are not uniform, but the codes only
+    // of cells with values.
     bool values_alone = false;
 };
 
@@ -151,9 +151,9 @@ struct PackedSource {
 inline constexpr std::uint64_t most_packed_bytes = std::uint64_t{64} << 20;
 inline constexpr std::size_t most_bricks_of_a_range = 16384;
 
-// Returns the bytes of a whole grid, of its table, or of the bricks [first, end). The caller checks
-// afterward that the file is whole. Errors: bad_argument for a range that is empty or beyond the
-// table, and for an answer beyond the limits above; the message says what to request instead.
+// Returns the bytes of a whole grid, of its table, or of the bricks [first, end). The caller must
+// check afterward that the file is whole. Errors: bad_argument for a range that is empty or beyond
+// the table, and for an answer beyond the limits above; the message says what to request instead.
 [[nodiscard]] Result<std::string> pack_whole(const PackedSource& source);
 [[nodiscard]] Result<std::string> pack_table(const PackedSource& source);
 // Returns the whole grid if it has at most `most` bytes, else its table.

@@ -32,10 +32,10 @@ struct PackedSweepHeader {
     std::uint32_t kind = 0, kind_count = 0;
     std::uint32_t radial_count = 0;
     std::uint32_t gate_stride = 0;  // codes in a row
-    std::int32_t first_gate_m = 0;  // to the center of gate 0, slant range
+    std::int32_t first_gate_m = 0;  // slant range to the center of gate 0
     std::int32_t gate_spacing_m = 0;
     std::uint32_t code_bytes = 1;
-    std::uint32_t first_valid_code = 2;  // codes below it are states and flags
+    std::uint32_t first_valid_code = 2;  // smaller codes are states and flags
     float scale = 1, offset = 0;         // value = (code - offset) / scale
     std::uint64_t radials_offset = 0;
     std::uint64_t codes_offset = 0;
@@ -81,7 +81,7 @@ static_assert(offsetof(PackedRadial, unambiguous_range_m) == 20);
 static_assert(offsetof(PackedRadial, gate_count) == 24);
 
 // Returns the bytes. A sweep may have several arrays of one moment, with different gates; `kind` is
-// the index of the array. Errors: not_found if the volume has no such sweep, moment or kind.
+// the index of the array. Errors: not_found if the volume has no such sweep, moment or array.
 [[nodiscard]] Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
                                              level2::Moment moment, std::size_t kind);
 

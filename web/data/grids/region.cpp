@@ -21,7 +21,7 @@ namespace {
 constexpr double least_side_deg = 0.05;
 constexpr double most_side_deg = 40;
 constexpr double farthest_latitude_deg = 80;
-constexpr double farthest_site_deg = 12;  // beyond the box; no site reaches farther
+constexpr double farthest_site_deg = 12;  // from the box; no site reaches farther
 constexpr int threads_of_a_region = 1;
 
 Status check_region_box(const RegionBox& box) {
@@ -70,12 +70,12 @@ grid::GridSpec region_spec(const RegionBox& box, double spacing_m, std::vector<d
     return spec;
 }
 
-// Returns the distance from a site to the corners of its grid, in meters.
+// Returns the distance from a site to the farthest corner of its grid, in meters.
 double reach_of_grid(const grid::GridSpec& spec) {
     return 0.5 * std::hypot(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m());
 }
 
-// Returns true if the place is in the box, or within the margin about it.
+// Returns true if the place is in the box, or within the margin around it.
 bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg) {
     const double across =
         std::remainder(place.longitude_deg - 0.5 * (box.west_deg + box.east_deg), 360.0);
@@ -84,8 +84,8 @@ bool is_about(const StationPlace& place, const RegionBox& box, double margin_deg
            place.latitude_deg < box.north_deg + margin_deg;
 }
 
-// A site near the box, with its newest grid of the moment. A null grid means that a site in the box
-// has none.
+// A site near the box, with its newest grid of the moment. A site in the box that has no such grid
+// has a null grid.
 struct NearbySite {
     std::string name;
     std::shared_ptr<const OpenGrid> newest;
@@ -102,7 +102,7 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
         if (!newest && is_about(*place, box, 0)) found.push_back({domain, nullptr});
         if (!newest) continue;
         auto grid = grids.find(domain, moment, *newest);
-        // The grid may have been evicted since it was listed.
+        // If the grid is gone, it was evicted since it was listed.
         if (!grid && grid.error().code == ErrorCode::not_found) continue;
         if (!grid) return pass_on(grid);
         if ((*grid)->file.description().sites.size() == 1) found.push_back({domain, *grid});
@@ -110,8 +110,8 @@ Result<std::vector<NearbySite>> sites_about(Grids& grids, const RegionBox& box,
     return found;
 }
 
-// Returns true if the grid has the plan's levels and codes. Sites are merged level by level and
-// code by code, so other grids do not fit.
+// Returns true if the grid has the plan's levels and codes. Other grids do not fit, because sites
+// are merged level by level and code by code.
 bool fits(const OpenGrid& grid, const RegionPlan& plan) {
     const grid::BrickView view = grid.file.view();
     return view.spec->levels_m == plan.spec.levels_m && view.quantization == plan.quantization;
@@ -124,7 +124,7 @@ struct LaidGrid {
     std::optional<grid::BrickGrid> bricks;
 };
 
-// Resamples the volumes of one site onto the region. Volumes with the same spec share the lookup of
+// Resamples the volumes of one site onto the region. Volumes with the same spec share the table of
 // nearest columns.
 class SiteLayer {
   public:
@@ -169,18 +169,18 @@ UtcTime middle_of(const OpenGrid& grid) {
     return description.start_time + (description.end_time - description.start_time) / 2;
 }
 
-// Returns a site's fitting volumes about an instant, at most `greatest_gap` away: the last one
-// whose middle is not after the instant, and the next one. A grid's time is the start of its
-// volume, so the search begins earlier.
+// Returns a site's volumes around an instant, at most `greatest_gap` away: the last one whose
+// middle is not after the instant, and the next one. Volumes that do not fit are left out. The time
+// of a grid is the start of its volume, so the search begins earlier.
 Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const RegionPlan& plan,
                                  UtcTime instant) {
     const auto gap = pipeline::FrameOptions{}.greatest_gap;
     RegionSite found{site, nullptr, nullptr, {}};
-    bool has_others = false;  // some grids do not fit
+    bool has_others = false;  // true: there are grids that do not fit
     const auto times = grids.times(site, plan.moment, instant - 2 * gap, instant + gap);
     for (auto time = times.rbegin(); time != times.rend() && !found.before; ++time) {
         auto grid = grids.find(site, plan.moment, *time);
-        // The grid may have been evicted since it was listed.
+        // If the grid is gone, it was evicted since it was listed.
         if (!grid && grid.error().code == ErrorCode::not_found) continue;
         if (!grid) return pass_on(grid);
         const UtcTime middle = middle_of(**grid);
@@ -292,7 +292,7 @@ std::vector<UtcTime> region_times(const Grids& grids, const RegionPlan& plan) {
             const auto since = time.time_since_epoch() + interval / 2;
             const UtcTime instant{since - since % interval};
             instants.insert(instant);
-            // Between two volumes the site is moved to any instant.
+            // Between two volumes, the echo of the site can be moved to any instant.
             if (before && instant - *before <= bridge) {
                 for (UtcTime between = *before + interval; between < instant; between += interval)
                     instants.insert(between);

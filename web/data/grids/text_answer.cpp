@@ -10,7 +10,7 @@
 namespace stormcellar::web {
 namespace {
 
-// A smaller text fits into one packet, with the headers.
+// A smaller text is not compressed, because it fits into one packet together with the headers.
 constexpr std::size_t least_compressed_text = 1024;
 
 }  // namespace
@@ -26,7 +26,7 @@ Answer text_answer_to(const Request& request, std::string content_type, std::str
     entity.coding = coding_name(coding);
     entity.varies = true;
     entity.headers = std::move(headers);
-    // A client that already has this text needs no compressed one.
+    // A client that has this text already needs no compressed one.
     if (request.header("If-None-Match")) {
         if (Answer unchanged = answer_with(request, entity); unchanged.status == 304)
             return unchanged;

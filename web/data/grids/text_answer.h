@@ -9,9 +9,9 @@
 
 namespace stormcellar::web {
 
-// Answers with the text and an ETag of its bytes. A text of over a kilobyte is compressed if the
-// client accepts a coding. The client must revalidate each use. `headers` are added to the answer.
-// Errors: 503 if there is no memory to compress it.
+// Answers with the text, and an ETag made of its bytes. Compresses a text of over a kilobyte if the
+// client accepts a coding. The client must revalidate each use. Adds `headers` to the answer.
+// Errors: 503 if there is no memory for compressing.
 [[nodiscard]] Answer text_answer_to(const Request& request, std::string content_type,
                                     std::string text, Fields headers = {});
 

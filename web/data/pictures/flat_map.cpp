@@ -32,10 +32,10 @@ Mixing mixing_of(const render::Scene& scene) {
     return render::look_of(scene.moment).shows_largest ? Mixing::largest : Mixing::mean;
 }
 
-// Collects up to four cells that become one.
+// Collects up to four cells, which become one.
 struct CellsTogether {
     std::array<float, 4> values{};
-    std::size_t count = 0;  // of the values
+    std::size_t count = 0;  // number of values
     bool is_folded = false, is_ambiguous = false, is_seen = false;
 
     void add(CellStatus status, float value) {
@@ -143,7 +143,7 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
         if (const auto* kept = maps_.find(key)) return *kept;
         making_.insert(key);
     }
-    // Wakes the threads that wait for the map, even if there is no memory for it.
+    // Wakes the threads that wait for the map, also if there is no memory for it.
     struct Ending {
         FlatMaps& maps;
         const std::string& key;

@@ -1,19 +1,19 @@
-// web/data/pictures/flat_map.h -- a 2D product of a grid, made once, with smaller levels for small
-// scales.
+// web/data/pictures/flat_map.h -- a 2D product of a grid, which is made once, with coarser levels
+// for small scales.
 //
-// Level 0 has a cell for each column of the grid; each further level has half as many columns and
-// rows, until neither exceeds 32. A cell of a level represents the four cells that it covers (fewer
-// at an edge of odd length):
+// Level 0 has a cell for each column of the grid. Each further level has half as many columns and
+// rows, until neither is more than 32. A cell of a further level stands for the four cells that it
+// covers (fewer at an edge of odd length):
 //   state   a value if any of the four has one; else range folded if any is; else no echo if any
-//           was seen; else not seen. By this rule, small scales hide no echo.
+//           was seen; else not seen. So small scales hide no echo.
 //   value   VEL: the value farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values are on a
 //           circle: the value of the first cell with one, from the southwest. Other moments, and
-//           products in other units than their moment's: the largest value.
+//           products whose unit is not their moment's: the largest value.
 //
-// Units     Those of render/products/flat_field.h. A cell takes 5 bytes; all levels together take
+// Units     Those of render/products/flat_field.h. A cell takes 5 bytes. All levels together take
 //           4/3 of the first.
-// Threads   A FlatMap is constant. Many threads may use FlatMaps; if several want the same map, one
-//           makes it and the others wait.
+// Threads   A FlatMap is constant. Many threads may use FlatMaps. If several want the same map at
+//           the same time, one makes it and the others wait.
 // Errors    See each function.
 #pragma once
 
@@ -44,7 +44,7 @@ struct FlatMap {
 
 class FlatMaps {
   public:
-    // The newest map is kept however large it is, because the neighboring tiles need it, too.
+    // The newest map is kept however large it is, because neighboring tiles need it, too.
     explicit FlatMaps(std::uint64_t budget_bytes) : maps_({.weight = budget_bytes}) {}
 
     // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that

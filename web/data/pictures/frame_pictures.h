@@ -1,11 +1,11 @@
 // web/data/pictures/frame_pictures.h -- draws grids of the cache as `stormcellar frame` does.
 //
-// A picture depends only on the grids' bytes and the options: its times are in UTC unless the query
-// names a time zone, and it does not show the age of the data. `stormcellar frame` with the same
-// options gives the same bytes.
+// A picture depends only on the bytes of the grids and on the options. Its times are in UTC unless
+// the query names a time zone, and it does not show the age of the data. `stormcellar frame` with
+// the same options gives the same bytes.
 //
-// Threads   Many threads may use it. If several want the same picture at once, one draws it. The
-//           caller limits how many are drawn at once (web/http/work_queue.h).
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it. The caller limits how many are drawn at the same time (web/http/work_queue.h).
 // Errors    See each function.
 #pragma once
 
@@ -26,7 +26,7 @@ struct FramePicturesOptions {
     int threads = 1;  // for one picture
 };
 
-// A picture of grids of one domain and time, with one grid for each panel.
+// A picture of grids of one domain and time. Each panel shows one of the grids.
 struct FramePicture {
     std::string domain;
     std::vector<std::shared_ptr<const OpenGrid>> grids;
@@ -36,7 +36,8 @@ struct FramePicture {
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
-// Returns the ETag, with its quotes, of the picture with this key as this version draws it.
+// Returns the ETag, with its quotes, of the picture with this key. Another version of the program
+// has another ETag.
 [[nodiscard]] std::string etag_of_frame(const std::string& key);
 
 class FramePictures {
@@ -45,7 +46,7 @@ class FramePictures {
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const FramePicture& picture);
-    // Returns the picture, and draws it if it is not kept. Errors: those of drawing.
+    // Returns the picture. If it is not kept, draws it. Errors: those of drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const FramePicture& picture);
 
   private:

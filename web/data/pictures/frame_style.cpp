@@ -22,7 +22,7 @@ std::string parameter_text(const Fields& query, std::string_view wanted) {
     return {};
 }
 
-// Reads a parameter that is not in the table of options.
+// Reads a parameter that the table of options does not have.
 Status take_more(const Fields& query, FrameStyle& style) {
     for (const std::string_view name : {panels_parameter, tiff_parameter}) {
         const auto count = std::ranges::count(
@@ -58,7 +58,7 @@ Status check_size_of_frame(const render::Scene& scene) {
     return {};
 }
 
-// Returns the panels of the picture. A single panel fills the whole picture.
+// Returns the panels of the picture. If there is only one, it fills the whole picture.
 Result<std::vector<render::PanelScene>> panels_of_frame(const FrameStyle& style,
                                                         const std::string& list) {
     if (style.has_panels) return render::panel_scenes(list, style.options, render::scene_of);

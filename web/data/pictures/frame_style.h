@@ -25,20 +25,20 @@ namespace stormcellar::web {
 inline constexpr std::int64_t most_frame_pixels = 3840 * 2160;
 inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // pixels times slices
 
-// The picture that a query asks for.
+// The picture that a query asks for. It does not say which grid is shown.
 struct FrameStyle {
     render::SceneOptions options;
     std::vector<render::PanelScene> panels;  // one, or several in one picture
     bool has_panels = false;                 // the query has "panels", even with one name
     const render::StillFormat* format = nullptr;
     render::TiffContent tiff = render::TiffContent::values;
-    std::string key;  // the whole style as one text
+    std::string key;  // the whole style as one text, to tell styles apart
 };
 
 // Reads the query of a picture. The ending of the file's name gives the format. The parameters are
-// the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff";
-// parameters named in `others` are left to the door. Errors: not_found for an ending without a
-// format; bad_argument.
+// the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff".
+// Ignores parameters named in `others`, which the caller reads. Errors: not_found for an ending
+// that no format has; bad_argument.
 [[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
                                              std::span<const std::string_view> others);
 
@@ -48,7 +48,7 @@ struct DrawnPanel {
     const cache::GridDescription* description;
 };
 
-// Draws the panels of the style as `stormcellar frame` does. The notes of the result are its media
+// Draws the panels of the style as `stormcellar frame` does. The notes of the result are the media
 // type. Errors: those of drawing.
 [[nodiscard]] Result<Kept> draw_frame(const std::string& domain, const FrameStyle& style,
                                       std::span<const DrawnPanel> panels, std::string etag,

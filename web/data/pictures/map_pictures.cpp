@@ -22,7 +22,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Raise this number when the same grid gives another picture than before.
+// Raise this number whenever the same grid gives another picture than before.
 constexpr int version_of_pictures = 1;
 constexpr double tolerated_octaves = 0.2;
 constexpr std::size_t most_boxes_known = 512;
@@ -34,7 +34,7 @@ std::string text_of_bytes(const std::vector<std::byte>& bytes) {
     return text;
 }
 
-// Draws an image over another one. Both may be partly transparent.
+// Draws the image `upper` over `lower`. Both may be partly transparent.
 void lay_over(const render::Image& upper, render::Image& lower) {
     for (std::size_t i = 0; i < lower.rgba.size(); i += 4) {
         const int alpha = upper.rgba[i + 3];
@@ -133,7 +133,7 @@ Result<std::optional<MapValue>> MapPictures::value_at(const PictureLayer& layer,
     const grid::ColumnPoint at = grid::GridProjection(spec).to_column(place);
     const double x = std::floor(at.x + 0.5);
     const double y = std::floor(at.y + 0.5);
-    // If the projection has no column for the place, x and y are NaN and the comparison is false.
+    // If the projection has no column for the place, x and y are NaN, so this comparison is false.
     if (!(x >= 0 && y >= 0 && x < spec.nx && y < spec.ny)) return std::nullopt;
     const auto map = maps_.find_or_make(*layer.grid, layer.style.scene, options_.threads);
     if (!map) return pass_on(map);

@@ -1,11 +1,11 @@
 // web/data/pictures/map_pictures.h -- draws 2D products on rectangles of a map's plane, for tiles
-// and WMS, as PNG or JPEG, and keeps them in memory.
+// and WMS, as PNG or JPEG. Keeps the pictures in memory.
 //
 // A picture depends only on the grid's bytes, the options and the rectangle. Its ETag is made from
-// these, so it is known before the picture is drawn.
+// these, so the ETag is known before the picture is drawn.
 //
-// Threads   Many threads may use it. If several want the same picture at once, one draws it. The
-//           caller limits how many are drawn at once (web/http/work_queue.h).
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it. The caller limits how many are drawn at the same time (web/http/work_queue.h).
 // Errors    See each function.
 #pragma once
 
@@ -31,13 +31,14 @@ namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
-    // Keeps the pictures; other doors may share the object.
+    // Keeps the pictures. Others may share this object.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
     std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
     int threads = 1;                       // for making one product of a grid
 };
 
-// A layer of a grid. A picture draws its layers one over another, the first at the bottom.
+// A layer of a picture, which shows a grid. Layers are drawn one over another, the first at the
+// bottom.
 struct PictureLayer {
     std::shared_ptr<const OpenGrid> grid;
     MapStyle style;
@@ -54,7 +55,7 @@ struct MapPicture {
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
-// The value that a layer shows at a place. It is 0 unless the status says that there is a value.
+// The value that a layer shows at a place. It is 0 unless the status is `value`.
 struct MapValue {
     grid::CellStatus status = grid::CellStatus::not_seen;
     float value = 0;
@@ -66,19 +67,20 @@ class MapPictures {
 
     // Returns the picture if it is kept. Takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const MapPicture& picture);
-    // Returns the picture, and draws it if it is not kept. Errors: those of
-    // FlatMaps::find_or_make() and of the encoder.
+    // Returns the picture. If it is not kept, draws it. Errors: those of FlatMaps::find_or_make()
+    // and of the encoder.
     [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
 
-    // Returns the value of the column at the place, from the product at full resolution; none
-    // outside the grid. Errors: those of FlatMaps::find_or_make().
+    // Returns the value of the column at the place, from the product at full resolution. Returns
+    // none outside the grid. Errors: those of FlatMaps::find_or_make().
     [[nodiscard]] Result<std::optional<MapValue>> value_at(const PictureLayer& layer,
                                                            const grid::GeoPoint& place);
     // Draws the legend of the layer's colors as PNG. Errors: those of draw_legend_panel() and of
     // the encoder.
     [[nodiscard]] static Result<Kept> legend(const PictureLayer& layer);
 
-    // Returns the extent of a grid from its spec. The results for the newest specs are kept.
+    // Returns the extent on the earth of grids with this spec. Keeps the results for the newest
+    // specs.
     [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);
     [[nodiscard]] Grids& grids() { return *options_.grids; }
 
@@ -94,14 +96,15 @@ class MapPictures {
     RecentlyUsed<DomainSpec, render::EarthBox> boxes_ STORMCELLAR_GUARDED_BY(boxes_mutex_);
 };
 
-// Returns how often to halve a field for the pixels of this window: until a cell has at least 0.87
-// of the side of a pixel, so that almost no cell falls between pixels, or until no smaller level
-// exists. The result does not depend on the position of the window, so tiles fit together.
+// Returns how often to halve a field for the pixels of this window. It is halved until the side of
+// a cell is at least 0.87 of a pixel's, so that almost no cell falls between pixels, or until there
+// is no coarser level. The result does not depend on the position of the window, so tiles fit
+// together.
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 
-// Reads "latest" or an instant as a time. Errors: not_found for "latest" if there is no grid;
-// bad_argument for a text that is not a time.
+// Reads the time of a grid: "latest" or an instant. Errors: not_found for "latest" if there is no
+// grid; bad_argument for a text that is not a time.
 [[nodiscard]] Result<UtcTime> time_of_grid(const Grids& grids, std::string_view domain,
                                            level2::Moment moment, std::string_view text);
 

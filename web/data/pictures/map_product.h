@@ -1,7 +1,7 @@
 // web/data/pictures/map_product.h -- the 2D products of a domain as layers of a map, by name.
 //
-// A layer is a product and a moment: "composite.VEL". The name of a product that needs reflectivity
-// has no moment ("vil"); any other name without a moment means REF.
+// A layer is a product of a moment, as in "composite.VEL". A product that always needs reflectivity
+// has a name without a moment ("vil"). For other products, a name without a moment means REF.
 //
 // Threads   Plain values and pure functions.
 // Errors    See each function.
@@ -27,11 +27,11 @@ struct MapProduct {
     bool operator==(const MapProduct&) const = default;
 };
 
-// Finds the product. Errors: not_found, listing the products, for a name of another form, for a
-// product that is not a map of a grid, and for a moment that the product does not have.
+// Finds the product. Errors: not_found, with a list of the products, for a name of another form,
+// for a product that is not a map of a grid, and for a moment that the product does not have.
 [[nodiscard]] Result<MapProduct> map_product_named(std::string_view name);
 
-// Returns the layers that grids of these moments give, in the order of products.
+// Returns the layers that grids of these moments have, in the order of products.
 [[nodiscard]] std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& moments);
 
 // A layer with the options of a query.
@@ -41,12 +41,12 @@ struct MapStyle {
     std::string key;  // the whole style as one text, for keys of kept answers
 };
 
-// Returns true for options that a layer takes as parameters: colors, smooth, height-km,
+// Returns true for the options that a layer takes as parameters: colors, smooth, height-km,
 // echo-top-dbz.
 [[nodiscard]] bool is_of_layers(const render::PictureOption& option);
 
-// Reads the options of a layer. Parameters named in `others` are left to the door. Without options,
-// cells are drawn unsmoothed, in colors without classes. Errors: bad_argument.
+// Reads the options of a layer. Ignores parameters named in `others`, which the caller reads.
+// Without options, cells are drawn unsmoothed, with colors without classes. Errors: bad_argument.
 [[nodiscard]] Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
                                          std::span<const std::string_view> others);
 

@@ -84,7 +84,8 @@ Result<PictureQuery> picture_query(const Fields& query, TakesOption takes,
         asked.push_back(fmt::format("{}={}", name, text));
     }
     std::ranges::sort(asked);
-    // No parameter contains a line feed, because the server refuses control characters.
+    // A line feed can separate the parameters, because the server refuses control characters in
+    // them.
     read.key = fmt::format("{}", fmt::join(asked, "\n"));
     return read;
 }

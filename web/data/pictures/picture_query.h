@@ -2,11 +2,11 @@
 //
 // A parameter is an option of `stormcellar frame` without its dashes ("tilt", "camera-km"), from
 // the same table (render/options/picture_options.h). Options that do not affect the picture
-// (threads) are not parameters, and colors are given by name only, so a query never names a file.
+// (threads) are not parameters. Colors are given by name only, so that a query never names a file.
 //
 // Threads   Pure functions.
-// Errors    bad_argument, naming the parameter, if it is unknown, is given twice, has more than 256
-//           bytes or has a value that makes no sense.
+// Errors    bad_argument, naming the parameter, if it is unknown, comes twice, has more than 256
+//           bytes, or has a value that makes no sense.
 #pragma once
 
 #include <span>
@@ -30,7 +30,8 @@ using TakesOption = bool (*)(const render::PictureOption&);
 // Returns true for options that apply to a bare map: all but product, size, theme and labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
-// Reads the options that `takes` allows. Parameters named in `others` are left to the door.
+// Reads the options that `takes` allows. Ignores parameters named in `others`, which the caller
+// reads.
 [[nodiscard]] Result<PictureQuery> picture_query(const Fields& query, TakesOption takes,
                                                  std::span<const std::string_view> others);
 

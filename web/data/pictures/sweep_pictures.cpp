@@ -24,8 +24,8 @@ struct PlacedSweep {
     cache::GridDescription description;
 };
 
-// Decodes the sweep that a panel shows. The picture names the volume instead of the file, whose
-// name may differ between machines. All panels are drawn on the plane of the first.
+// Decodes the sweep that a panel shows. The picture names the volume and not the file, whose name
+// may differ between machines. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
                                  std::optional<UtcTime> start, const render::PanelScene& panel,
                                  const retrieve::DerivedOptions& derived,
@@ -60,7 +60,8 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
 
 }  // namespace
 
-// For a growing file, the key has the file's state on this machine.
+// Returns the key of the picture. For a growing file, the key includes the state of the file on
+// this machine.
 std::string SweepPicture::key() const {
     const std::string state = catalog::has_final_hash(volume)
                                   ? std::string{}

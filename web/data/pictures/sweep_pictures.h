@@ -1,9 +1,10 @@
 // web/data/pictures/sweep_pictures.h -- draws sweeps (ppi) from the raw volume of a grid.
 //
-// The cache holds grids only, so the gates come from the raw file, which the catalog finds.
-// `stormcellar frame` with the same options gives the same bytes, with times in UTC.
+// The cache holds only grids, so the gates are read from the raw file, which the catalog finds.
+// `stormcellar frame` with the same options gives the same bytes; times are in UTC.
 //
-// Threads   Many threads may use it. If several want the same picture at once, one draws it.
+// Threads   Many threads may use it. If several want the same picture at the same time, one draws
+//           it.
 // Errors    See each function. No message names a directory.
 #pragma once
 
@@ -22,7 +23,7 @@ namespace stormcellar::web {
 
 struct SweepPicture {
     std::string domain;
-    std::string grid_id;  // part of the key, so that a growing volume is drawn again
+    std::string grid_id;  // in the key, so that a growing volume is drawn again
     catalog::CatalogEntry volume;
     std::uint64_t chunks = 0;  // changes when more chunks come
     FrameStyle style;
@@ -36,11 +37,11 @@ class SweepPictures {
     SweepPictures(std::shared_ptr<ServedCatalog> catalog, FramePicturesOptions options)
         : catalog_(std::move(catalog)), options_(std::move(options)) {}
 
-    // Finds the raw volume of a grid; none if the catalog does not have it. Errors: bad_argument
-    // for a grid of several sites; those of the catalog.
+    // Finds the raw volume of a grid. Returns none if the catalog does not have it. Errors:
+    // bad_argument for a grid of several sites; those of the catalog.
     [[nodiscard]] Result<std::optional<SweepPicture>> find(const OpenGrid& grid, FrameStyle style);
-    // Returns the picture, and draws it if it is not kept. Errors: not_found if the raw file is
-    // gone or has no such sweep; those of decoding and drawing.
+    // Returns the picture. If it is not kept, draws it. Errors: not_found if the raw file is gone
+    // or has no such sweep; those of decoding and drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const SweepPicture& picture);
 
   private:

@@ -26,14 +26,16 @@ using catalog::FileState;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kept_open_for{2}, floor_holds_for{30};
-// The time in a dropped file's name differs from the volume's start by seconds; some names have no
-// seconds.
+// The time in the name of a dropped file may differ from the volume's start by this much. They
+// differ by seconds, and some names have no seconds.
 constexpr std::chrono::minutes own_name_differs{2};
-// Rows read in addition to those wanted, because a file may have come several times.
+// Number of rows that are read in addition to the wanted ones, because a file may have come several
+// times.
 constexpr std::size_t more_rows = 200;
 constexpr std::size_t most_rows_of_a_name = 500;
 
-// Skip members of archives: they are not served, and thousands may be between two served files.
+// Leaves out members of archives. They are not served, and thousands may be between two served
+// files.
 const catalog::Stretch of_served{.with_members = false};
 
 // Returns true if `a` is the better file of the same name.
@@ -77,7 +79,7 @@ class CatalogRawFiles final : public RawFiles {
         std::optional<UtcTime> start;
         steady_clock::time_point found{};
     };
-    // Returns null while there is no catalog.
+    // Returns the reader, or null while there is no catalog.
     std::shared_ptr<const CatalogReader> reader();
     Result<std::vector<CatalogEntry>> rows_of(const CatalogReader& catalog,
                                               std::string_view station, const RawRange& range);
@@ -119,7 +121,7 @@ Result<std::vector<RawStation>> CatalogRawFiles::stations() {
 }
 
 // Returns the start of the oldest volume whose file exists. Rows of deleted files may stay forever,
-// so a list from the beginning starts here.
+// so a list without a beginning starts here.
 Result<std::optional<UtcTime>> CatalogRawFiles::floor_of(const CatalogReader& catalog,
                                                          std::string_view station) {
     const auto now = steady_clock::now();
@@ -154,8 +156,8 @@ Result<std::vector<CatalogEntry>> CatalogRawFiles::rows_of(const CatalogReader& 
     }
     auto rows = catalog.list_stretch(station, stretch);
     if (rows && rows->size() == stretch.most) {
-        // The limit may have cut off further files of the last name, so leave the name to the next
-        // list.
+        // The limit may have cut off further files with the last name, so leave this name to the
+        // next list.
         const std::string last = format_compact(*rows->back().volume.start_time);
         const auto first_of_last = std::ranges::find_if(*rows, [&](const CatalogEntry& row) {
             return format_compact(*row.volume.start_time) == last;
@@ -204,7 +206,7 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find_by_own_name(const Cata
             if (!row) return row;
             if (!*row || (*row)->state == FileState::rejected) continue;
             if ((*row)->state != FileState::gone) return row;
-            gone = std::move(*row);  // a file of this name may exist elsewhere
+            gone = std::move(*row);  // another file of this name may exist elsewhere
         }
     }
     const auto time = time_in_file_name(name);
@@ -245,8 +247,8 @@ Result<std::optional<CatalogEntry>> CatalogRawFiles::find(const CatalogReader& c
     if (found) return found;
     auto own = find_by_own_name(catalog, station, name);
     if (!own || !*own || (*own)->volume.start_time) return own;
-    // The file was found by its path and not cataloged as a volume. Members of archives are not
-    // served.
+    // This file was found by its path, and is not cataloged as a volume. Members of archives are
+    // not served.
     if (!member_names_in((*own)->path).empty()) return std::optional<CatalogEntry>{};
     return own;
 }

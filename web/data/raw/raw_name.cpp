@@ -22,7 +22,7 @@ std::string_view packed_ending_of(std::string_view name) {
     return {};
 }
 
-// Returns true for "_V06", "_V06.gz", ".gz" or nothing.
+// Returns true if the text is "_V06" or a similar version, ".gz", both, or nothing.
 bool is_bucket_ending(std::string_view ending) {
     ending.remove_suffix(packed_ending_of(ending).size());
     return ending.empty() ||

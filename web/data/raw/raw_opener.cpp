@@ -32,7 +32,8 @@ tl::unexpected<RawFailure> missing(RawMissing why, std::string reason) {
     return tl::unexpected(RawFailure{why, std::move(reason)});
 }
 
-// Makes the failure from an error. The catalog knew the file, so "not found" means that it is gone.
+// Makes a failure from an error. The catalog knew the file, so "not found" means that the file is
+// gone.
 tl::unexpected<RawFailure> missing(const Error& error) {
     switch (error.code) {
         case ErrorCode::not_found:
@@ -94,8 +95,8 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
     std::vector<CatalogEntry> chunks;
     int due = 1;
     for (auto& [number, row] : by_number) {
-        // If the volume grows, stop at a gap or at a chunk that was not read yet, because later
-        // chunks are not yet its next part.
+        // If the volume grows, stop at a gap and at a chunk that was not read yet, because later
+        // chunks do not continue the file.
         if (is_growing(entry) && (number > due || row.content_hash == 0)) break;
         due = number + 1;
         chunks.push_back(std::move(row));
@@ -103,7 +104,7 @@ Result<std::vector<CatalogEntry>> chunk_rows(const CatalogReader& catalog,
     return chunks;
 }
 
-// Describes the chunks from their rows; the same contents give the same tag.
+// Describes the chunks by their rows. The same contents give the same tag.
 RawFacts facts_of_rows(const std::vector<CatalogEntry>& chunks, bool grows) {
     RawFacts facts;
     Xxh3Stream hashes;
@@ -133,7 +134,7 @@ RawOpener::State RawOpener::state_of(const struct stat& facts) {
     return {facts.st_dev, facts.st_ino, facts.st_size, modified_ns_of(facts), changed_ns};
 }
 
-// Compares the contents with the row, and reads each state of a file only once.
+// Compares the contents with the row. Reads each state of a file only once.
 Status RawOpener::check_hash(const CatalogEntry& entry, const Descriptor& file,
                              const struct stat& facts) {
     const auto size_bytes = static_cast<std::uint64_t>(facts.st_size);
@@ -174,15 +175,15 @@ OpenedRawOrMissing RawOpener::open(const CatalogReader& catalog, const CatalogEn
     }
     const UtcTime modified = time_of_ns(modified_ns_of(facts));
     if (!is_growing(entry)) {
-        // Compare the size first, because the present file may be far larger.
+        // Compare the size first, because the file may be far larger now.
         if (size_bytes != entry.size_bytes) {
             return missing(RawMissing::changed, entry.path.native() + ": has another size");
         }
         if (Status same = check_hash(entry, *file, facts); !same) return missing(same.error());
         return OpenedRaw{file, size_bytes, modified, settled_tag(entry.content_hash, size_bytes)};
     }
-    // Refuse a file with a second name: it may be a hard link to a file that only the server may
-    // read, and a growing file has no hash yet that would show this.
+    // Refuse a file with a second name. It may be a hard link to a file that only the server may
+    // read, and a growing file has no hash yet that would reveal this.
     if (facts.st_nlink > 1 || size_bytes < entry.size_bytes) {
         return missing(RawMissing::changed,
                        entry.path.native() + ": was cut, or has a second name, while it grows");
@@ -206,7 +207,7 @@ OpenedRawOrMissing RawOpener::join(const CatalogReader& catalog,
         const auto read = catalog::read_cataloged(catalog, chunk);
         if (!read && grows && size_bytes > 0) break;  // serve what came before this chunk
         if (!read) return missing(read.error());
-        // Stop at a chunk that has grown since its row was written.
+        // Stop at a chunk that has grown after its row was written.
         if (grows && read->bytes.size() != chunk.size_bytes && size_bytes > 0) break;
         const auto once = level2::chunk_once(read->bytes);
         size_bytes += once.size();
@@ -242,8 +243,8 @@ OpenedRawOrMissing RawOpener::open_chunks(const CatalogReader& catalog, const Ca
     auto joined = join(catalog, *chunks, grows);
     const bool is_as_listed = joined && joined->size_bytes == facts.size_bytes;
     if (joined && (is_as_listed || !grows)) keep_joined(key, *joined);
-    // A file held a chunk twice, but the joined volume has the chunk once. Remember the smaller
-    // size for lists.
+    // The file held a chunk twice, but the joined volume has it once. Remember the smaller size for
+    // lists.
     if (joined && !is_as_listed && !grows) {
         remember_facts(entry, {joined->size_bytes, joined->modified, joined->tag});
     }

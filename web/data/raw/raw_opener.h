@@ -1,5 +1,5 @@
-// web/data/raw/raw_opener.h -- opens raw files of the catalog for serving. Only the raw files of
-// the catalog use it (raw_files.h).
+// web/data/raw/raw_opener.h -- opens raw files of the catalog, to serve them. Only the code for the
+// raw files of the catalog uses it (raw_files.h).
 //
 // Threads   Many threads may use one object.
 #pragma once
@@ -22,18 +22,18 @@
 
 namespace stormcellar::web {
 
-// A file of the catalog, or a volume's joined chunks, open for reading.
+// An open file: a file of the catalog, or the joined chunks of a volume.
 struct OpenedRaw {
     std::shared_ptr<const Descriptor> file;
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
     std::string tag;
-    bool is_joined = false;  // a nameless file, which takes room while it is open
+    bool is_joined = false;  // a nameless file, which takes space while it is open
 };
 using OpenedRawOrMissing = tl::expected<OpenedRaw, RawFailure>;
 
-// A volume's size, time and tag from its rows, without opening a file. A growing file has no tag;
-// the chunks of a growing volume have one.
+// The size, time and tag of a volume, taken from its rows without opening a file. A growing file
+// has no tag, but the chunks of a growing volume have one.
 struct RawFacts {
     std::uint64_t size_bytes = 0;
     UtcTime modified{};
@@ -54,8 +54,8 @@ class RawOpener {
                                             const catalog::CatalogEntry& entry);
 
   private:
-    // Identifies a state of a file's contents: the kernel sets ctime at every change of the
-    // contents.
+    // Identifies a state of a file's contents. The kernel changes ctime whenever the contents
+    // change.
     using State = std::tuple<dev_t, ino_t, off_t, std::int64_t, std::int64_t>;
     static State state_of(const struct stat& facts);
     [[nodiscard]] Status check_hash(const catalog::CatalogEntry& entry, const Descriptor& file,
@@ -70,11 +70,11 @@ class RawOpener {
     void remember_facts(const catalog::CatalogEntry& entry, const RawFacts& facts);
 
     const std::filesystem::path scratch_;
-    const KeptBudget budget_;  // of joined_
+    const KeptBudget budget_;  // limits joined_
     Mutex mutex_;
     std::map<State, std::uint64_t> hashes_ STORMCELLAR_GUARDED_BY(mutex_);
     RecentlyUsed<std::string, OpenedRaw> joined_ STORMCELLAR_GUARDED_BY(mutex_);
-    // Facts of settled volumes of chunks.
+    // Facts of volumes in chunks that no longer grow.
     std::map<std::string, RawFacts> facts_ STORMCELLAR_GUARDED_BY(mutex_);
 };
 

@@ -1,4 +1,4 @@
-// web/data/raw/served_catalog.h -- the served catalog, which may appear after the server has
+// web/data/raw/served_catalog.h -- the catalog that is served. It may appear after the server has
 // started.
 //
 // Threads   Many threads may use one object.

@@ -1,10 +1,10 @@
-// web/data/zarr/time_numbers.h -- assigns numbers to the times of a domain's grids, which are their
-// indexes in the Zarr arrays.
+// web/data/zarr/time_numbers.h -- gives numbers to the times of a domain's grids. The number is the
+// index of the time in the Zarr arrays.
 //
-// Each time gets a number when it is first seen; times that are seen together get them in ascending
+// A time gets a number when it is first seen. Times that are seen together get numbers in ascending
 // order. A time keeps its number after its grid is evicted and after a restart, so that an index
-// that a client holds never means another time. A grid that comes late therefore has a higher
-// number than a newer one.
+// that a client holds never means another time. So a grid that comes late has a higher number than
+// a newer grid.
 //
 // With a directory, DIRECTORY/DOMAIN/MOMENT.times holds the numbers: the 16 bytes "stormcellar
 // time", then the times in the order of their numbers (int64, little-endian, milliseconds since
@@ -39,21 +39,22 @@ namespace stormcellar::web {
 
 class TimeNumbers {
   public:
-    static constexpr std::size_t most_times = std::size_t{1} << 20;  // ten years of one radar
+    // Enough for ten years of one radar.
+    static constexpr std::size_t most_times = std::size_t{1} << 20;
 
-    // An empty directory means that the numbers are not kept on disk.
+    // If the directory is empty, the numbers are not kept on disk.
     explicit TimeNumbers(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-    // Gives numbers to the times of `present` (sorted) that have none, and returns the times of all
-    // numbers, in their order. While numbers cannot be kept, it gives no new ones and returns the
-    // times that have numbers. `domain` must be the name of a domain of the cache.
+    // Gives numbers to those times of `present` (sorted) that have none. Returns the times of all
+    // numbers, in the order of the numbers. While numbers cannot be kept, gives no new ones.
+    // `domain` must be the name of a domain of the cache.
     [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
         std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
-    // Returns the time of a number; none if the number was not given, or before the first update()
-    // of this domain and moment. Takes microseconds.
+    // Returns the time that has a number. Returns none if no time has it, or before the first
+    // update() of this domain and moment. Takes microseconds.
     [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
                                                  std::size_t number) const;
-    // Returns why the last numbers could not be kept; none if they were kept.
+    // Returns the reason why the last numbers could not be kept. Returns none if they were kept.
     [[nodiscard]] std::optional<std::string> problem() const;
     // Removes files that a killed server left in the directory. Nothing else may write there.
     void remove_leftovers() const;

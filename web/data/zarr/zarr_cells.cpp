@@ -14,7 +14,7 @@ using grid::brick_edge;
 using grid::BrickKind;
 using grid::CellStatus;
 
-// The part of a chunk's cells that is within the grid.
+// The cells of a chunk that are within the grid, along one axis.
 struct Stretch {
     int first = 0, end = 0;
 };
@@ -24,7 +24,7 @@ Stretch stretch_of(int chunk, int side, int cells) {
 
 struct ChunkCells {
     Stretch z, y, x;
-    std::size_t levels = 0;  // in the chunk
+    std::size_t levels = 0;  // number of levels in the chunk
 
     ChunkCells(const grid::GridSpec& spec, const ChunkPlace& place)
         : z(stretch_of(place.z, chunk_levels(spec), spec.nz())),
@@ -45,7 +45,7 @@ Stretch within_brick(int brick, const Stretch& cells) {
             std::min((brick + 1) * brick_edge, cells.end)};
 }
 
-// Calls `brick(entry, x, y, z)` for each brick with the ranges of its cells that are in the chunk.
+// Calls `brick(entry, x, y, z)` for each brick, with the ranges of its cells that are in the chunk.
 template <class Brick>
 void for_each_brick(const grid::BrickView& view, const ChunkCells& cells, const Brick& brick) {
     for (int bx = cells.x.first / brick_edge; bx * brick_edge < cells.x.end; ++bx) {

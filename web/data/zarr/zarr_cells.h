@@ -1,7 +1,7 @@
-// web/data/zarr/zarr_cells.h -- the cells of a grid as chunks of Zarr arrays.
+// web/data/zarr/zarr_cells.h -- makes chunks of Zarr arrays from the cells of a grid.
 //
-// A chunk has `chunk_side` columns, `chunk_side` rows and all levels, but at most `chunk_side`
-// levels. Its dimensions are time (one), z, y and x, of which x varies fastest. Cells of a chunk
+// A chunk has `chunk_side` columns and `chunk_side` rows, and all levels, but at most `chunk_side`
+// levels. Its dimensions are time (one), z, y and x; x varies fastest. Cells of a chunk that are
 // beyond the grid have the fill value. The bytes are uncompressed and little-endian.
 //
 // Units     Those of the moment.
@@ -19,8 +19,8 @@ namespace stormcellar::web {
 
 inline constexpr int chunk_side = 128;
 static_assert(chunk_side % grid::brick_edge == 0);
-// The fill value of the states: the grid is gone or cannot be read. No cell has this state, so a
-// reader that treats an error as a missing chunk does not show "not seen".
+// The fill value of states means that the grid is gone or cannot be read. No cell has this state.
+// So a reader that treats an error as a missing chunk does not show "not seen".
 inline constexpr std::int8_t status_unavailable = 4;
 
 struct ChunkPlace {
@@ -31,14 +31,14 @@ struct ChunkPlace {
 }
 [[nodiscard]] int chunk_levels(const grid::GridSpec& spec);
 
-// Returns float32 values; NaN where the cell has no value.
+// Returns the values as float32; NaN if the cell has no value.
 [[nodiscard]] std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place);
-// Returns int8 numbers of the cells' states.
+// Returns the states of the cells as int8 numbers.
 [[nodiscard]] std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place);
 
 // Selects what position_chunk() returns: the latitude or the longitude of the middle of each column
-// of cells, in degrees, as in grid files (export/grid_coordinates.h). A chunk has `chunk_side` rows
-// and columns of float64; NaN beyond the grid.
+// of cells. Positions are in degrees, as in grid files (export/grid_coordinates.h). A chunk has
+// `chunk_side` rows and columns of float64; NaN beyond the grid.
 enum class Position { latitude, longitude };
 [[nodiscard]] std::string position_chunk(const grid::GridSpec& spec, Position which,
                                          const ChunkPlace& place);

@@ -1,12 +1,12 @@
-// web/data/zarr/zarr_layout.h -- the arrays of a domain and moment as a Zarr group, and the
-// metadata documents for both versions of the format.
+// web/data/zarr/zarr_layout.h -- describes a domain and moment as a group of Zarr arrays, and
+// writes the metadata documents for both versions of the format.
 //
 // The group has the arrays MOMENT and status (time, z, y, x), the coordinates time, z, y and x, the
-// positions lat and lon (y, x), and the variable of the CF grid mapping, with the attributes that
-// grid files have (export/cf_attributes.h). In version 2 MOMENT and status have the attribute _CRS,
-// from which GDAL takes the projection. A grid that is regular in degrees has the dimensions lat
-// and lon instead of y and x, and no positions. All chunks are compressed with gzip; both versions
-// have the same chunks.
+// positions lat and lon (y, x), and the variable of the CF grid mapping. All have the attributes
+// that grid files have (export/cf_attributes.h). In version 2, MOMENT and status also have the
+// attribute _CRS, from which GDAL takes the projection. A grid in latitude and longitude has the
+// dimensions lat and lon instead of y and x, and no positions. All chunks are compressed with gzip.
+// Both versions have the same chunks.
 //
 // Sources   Zarr storage specification 2, with the consolidated metadata of zarr-python; Zarr core
 //           specification 3.0, with the inline consolidated metadata of zarr-python 3.
@@ -36,7 +36,7 @@ struct ZarrArray {
     std::vector<std::size_t> shape, chunk;  // as many as dimensions
     ZarrJson fill;
     ZarrJson attributes = ZarrJson::object();
-    // Further attributes in version 2; xarray could not write them to netCDF files.
+    // More attributes for version 2. xarray could not write these to netCDF files.
     ZarrJson version2_attributes = ZarrJson::object();
 
     // Returns the number of chunks along a dimension.
@@ -49,21 +49,21 @@ struct ZarrGroup {
     std::vector<ZarrArray> arrays;
     ZarrJson attributes = ZarrJson::object();
 
-    // Returns null if there is no array of this name.
+    // Returns the array of this name, or null if there is none.
     [[nodiscard]] const ZarrArray* find(std::string_view name) const;
 };
 
 inline constexpr std::size_t times_of_a_chunk = 4096;
 
-// Returns the group for `times` times of grids with the cells of `newest`.
+// Returns the group for grids at `times` times. The grids have the cells of `newest`.
 [[nodiscard]] ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
                                    std::size_t times);
 
-// Return the documents of version 2, except .zgroup, which is {"zarr_format": 2}.
+// Return the documents of version 2. The document .zgroup is always {"zarr_format": 2}.
 [[nodiscard]] ZarrJson zarray_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zattrs_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zmetadata_of(const ZarrGroup& group);
-// Return the document zarr.json of version 3, for an array and for the group.
+// Return the document zarr.json of version 3: for an array, and for the group.
 [[nodiscard]] ZarrJson zarr3_of(const ZarrArray& array);
 [[nodiscard]] ZarrJson zarr3_of(const ZarrGroup& group);
 

@@ -11,7 +11,7 @@
 namespace stormcellar::web {
 namespace {
 
-// One halved grid of the United States takes tens of megabytes.
+// A halved grid of the United States takes tens of megabytes.
 constexpr std::size_t most_halved_kept = 4;
 constexpr std::size_t most_shown_text = 80;
 constexpr std::int64_t most_listed = 10'000, usually_listed = 100;

@@ -1,6 +1,6 @@
-// web/doors/api/call.h -- one request to the JSON API, and the code that its operations share.
+// web/doors/api/call.h -- a request to the JSON API, and the code that the API's operations share.
 //
-// Threads   Many threads may use one ApiState; each call belongs to one thread.
+// Threads   Many threads may use one ApiState. Each call is used by one thread.
 // Errors    The functions that read a parameter return bad_argument with its name.
 #pragma once
 
@@ -50,16 +50,16 @@ class ApiState {
     explicit ApiState(ApiSources sources);
     [[nodiscard]] const ApiSources& sources() const { return sources_; }
 
-    // Returns the catalog, and opens it at the first call, since it may appear later. Errors:
+    // Returns the catalog. Opens it at the first call, because it may appear late. Errors:
     // not_found if none is served; those of CatalogReader::open().
     [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
 
-    // The state keeps the most recently used halved grids.
+    // A halved grid. The state keeps the most recently used ones.
     using Halved = std::shared_ptr<const grid::BrickGrid>;
     [[nodiscard]] Halved find_halved(const std::string& key);
     void keep_halved(const std::string& key, const Halved& halved);
 
-    // The state keeps the last decoded volume, because clients request its sweeps one after
+    // A decoded volume. The state keeps the last one, because clients request its sweeps one after
     // another.
     using DecodedVolume = std::shared_ptr<const level2::Volume>;
     [[nodiscard]] DecodedVolume find_volume(const std::string& key);
@@ -78,16 +78,16 @@ struct ApiCall {
     const Request& request;
     ApiState& state;
     std::vector<std::pair<std::string, std::string>> path_values;
-    // If set, an operation that would compute for long returns takes_long(). A worker for long
-    // answers then calls the operation again without this flag.
+    // If true, an operation that would compute for long returns takes_long() instead. A worker for
+    // long answers then calls it again with this member false.
     bool must_be_quick = false;
 
     [[nodiscard]] Grids& grids() const { return *state.sources().grids; }
     [[nodiscard]] std::string path_value(std::string_view name) const;
 };
 
-// Compresses an answer to be kept. Its ETag is made of a hash of the uncompressed bytes and the
-// coding.
+// Compresses an answer that will be kept. Its ETag is made from the coding and a hash of the
+// uncompressed bytes.
 [[nodiscard]] Result<Kept> kept_compressed(std::string_view bytes, Coding coding);
 // Returns the entity of kept bytes, whose notes name their coding.
 [[nodiscard]] Entity entity_of(const Kept& kept, std::string content_type);
@@ -102,8 +102,8 @@ using Answered = tl::expected<T, Answer>;
     return tl::unexpected<Answer>(json_error(error));
 }
 
-// Each function reads a parameter. If the parameter is absent, the function returns none or
-// `usual`. A number must be finite and within its limits.
+// Each of these functions reads a parameter. If it is absent, the function returns none or `usual`.
+// A number must be finite and within its limits.
 [[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
                                                              std::string_view name, double least,
                                                              double most);
@@ -113,25 +113,25 @@ using Answered = tl::expected<T, Answer>;
 [[nodiscard]] Result<std::optional<UtcTime>> time_parameter(const ApiCall& call,
                                                             std::string_view name);
 [[nodiscard]] Result<std::optional<level2::Moment>> moment_parameter(const ApiCall& call);
-// Reads west, south, east and north, which are all required. If the box crosses the antimeridian,
-// west is greater than east, or one of them is beyond 180 degrees.
+// Reads west, south, east and north, all of which are required. If the box crosses the
+// antimeridian, west is greater than east, or one of the two is beyond 180 degrees.
 [[nodiscard]] Result<RegionBox> box_parameters(const ApiCall& call);
-// Reads `from`, `to` and `limit`, the largest number of newest entries: 1 to 10,000, by default
-// 100.
+// The parameters `from`, `to` and `limit`. `limit` is the largest number of newest entries, from 1
+// to 10,000, and 100 if it is absent.
 struct ListedRange {
     std::optional<UtcTime> from, to;
     std::size_t limit = 0;
 };
 [[nodiscard]] Result<ListedRange> range_parameters(const ApiCall& call);
-// Reads "35.3,-97.3": latitude and longitude in degrees. The parameter is required.
+// Reads latitude and longitude in degrees, as in "35.3,-97.3". The parameter is required.
 [[nodiscard]] Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view name);
-// Reads "3-17" or "3"; both ends are inclusive.
+// Reads a range such as "3-17" or "3". Both ends are included.
 [[nodiscard]] Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
                                                                         std::string_view text);
 
-// Finds the grid that {domain}, {moment} and {time} of the path name; {time} may be "latest". The
-// error answer is 400 for a text that is not a time, 404 if there is no such grid, 410 if the grid
-// was evicted, or says why the grid cannot be read.
+// Finds the grid that {domain}, {moment} and {time} of the path name. {time} may be "latest". If
+// that fails, the answer is 400 for a text that is not a time, 404 if there is no such grid, or 410
+// if the grid was evicted; or it says why the grid cannot be read.
 struct NamedGrid {
     std::string domain;
     level2::Moment moment = level2::Moment::ref;
@@ -139,21 +139,21 @@ struct NamedGrid {
 };
 [[nodiscard]] Answered<NamedGrid> named_grid(const ApiCall& call);
 [[nodiscard]] Answered<std::shared_ptr<const OpenGrid>> find_grid(const ApiCall& call);
-// Finds the region that {region} and {moment} of the path name. The error answer is 400 for a box
-// that makes no sense, 404 for an unknown moment or if no site with its grids reaches the box, or
-// says why a grid cannot be read.
+// Finds the region that {region} and {moment} of the path name. If that fails, the answer is 400
+// for a box that makes no sense, or 404 for an unknown moment or if no site with grids of the
+// moment reaches the box; or it says why a grid cannot be read.
 struct AskedRegion {
-    std::string name;  // the box as text, as in the request
+    std::string name;  // the box as the request writes it
     RegionPlan plan;
 };
 [[nodiscard]] Answered<AskedRegion> asked_region(const ApiCall& call);
 // Answers a request for a grid that is not there.
 [[nodiscard]] Answer missing_grid(Grids& grids, const NamedGrid& named);
 
-// Answers with JSON. Clients must revalidate each use, and get 304 if the JSON has not changed.
+// Answers with JSON. The client must revalidate each use, and gets 304 if the JSON has not changed.
 [[nodiscard]] Answer json_answer(const Request& request, const ApiJson& document);
-// Returns the mark by which an operation says that it would compute for long. The server never
-// sends this answer.
+// Returns the answer by which an operation says that it would compute for long. The server never
+// sends it.
 [[nodiscard]] Answer takes_long();
 // Returns the path of a grid in the API, for links.
 [[nodiscard]] std::string grid_path(const NamedGrid& grid);

@@ -1,4 +1,5 @@
-// Operations on the exact contents of cells: the column at a place, and the columns along a line.
+// Operations that return exact contents of cells: of the column at a place, and of the columns
+// along a line.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +17,7 @@ struct GridColumn {
     int x = 0, y = 0;
 };
 
-// Returns the column whose cells hold the place; none outside the grid.
+// Returns the column of the grid at the place, or none outside the grid.
 std::optional<GridColumn> column_at(const grid::GridProjection& projection,
                                     const grid::GridSpec& spec, grid::GeoPoint place) {
     const grid::ColumnPoint point = projection.to_column(place);
@@ -27,7 +28,7 @@ std::optional<GridColumn> column_at(const grid::GridProjection& projection,
     return GridColumn{static_cast<int>(x), static_cast<int>(y)};
 }
 
-// Returns the names of the states from 0 to the last one that the moment has.
+// Returns the names of the states, from state 0 to the last state that the moment can have.
 ApiJson state_names(level2::Moment moment) {
     ApiJson names = ApiJson::array();
     for (int state = 0; state <= static_cast<int>(grid::states_of(moment).back()); ++state)
@@ -49,7 +50,8 @@ ApiJson head_of(const OpenGrid& grid) {
             {"step", grid.file.view().quantization.step}};
 }
 
-// Returns points of the shortest way, including both ends, and its length.
+// Returns points on the shortest way between two places, including both ends, and the length of the
+// way.
 std::vector<grid::GeoPoint> points_along(grid::GeoPoint from, grid::GeoPoint to, std::size_t count,
                                          double& length_m) {
     const grid::SiteFrame frame(from.latitude_deg, from.longitude_deg);

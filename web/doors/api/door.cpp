@@ -39,7 +39,7 @@ std::optional<Routed> route(const Request& request) {
     return std::nullopt;
 }
 
-// Refuses unknown parameters, so that a misspelled one is not treated as left out.
+// Refuses unknown parameters. Otherwise a misspelled parameter would have no effect.
 Status check_parameters(const ApiOperation& operation, const Request& request) {
     std::set<std::string_view> seen;
     for (const auto& [name, value] : request.query) {

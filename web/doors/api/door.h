@@ -1,8 +1,8 @@
 // web/doors/api/door.h -- the JSON API below /api/v1.
 //
 // Threads   Many threads may use it.
-// Errors    404 for a path without an operation, 400 for a parameter that the operation does not
-//           have, else as the operation says.
+// Errors    404 for a path that no operation has, 400 for a parameter that the operation does not
+//           have; else as the operation says.
 #pragma once
 
 #include "web/doors/api/call.h"
@@ -15,7 +15,7 @@ struct ApiOperation;
 class ApiDoor final : public Door {
   public:
     explicit ApiDoor(ApiSources sources) : state_(std::move(sources)) {}
-    // Answers if the operation has its answer in memory.
+    // Answers if the operation has the answer in memory.
     std::optional<Answer> answer_at_once(const Request& request) override;
     // Answers unless that takes a long computation.
     std::optional<Answer> answer_soon(const Request& request) override;

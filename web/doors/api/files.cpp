@@ -1,4 +1,4 @@
-// Operations that give a grid as a file: CF netCDF, or its own .scg.
+// Operations that return a grid as a file: CF netCDF, or the .scg file of the cache.
 #include "stormcellar/export/grid_netcdf.h"
 #include "web/doors/api/operations.h"
 #include "web/doors/pictures/picture_answers.h"
@@ -6,7 +6,8 @@
 namespace stormcellar::web {
 namespace {
 
-// While a netCDF file is made, the grid takes 5 bytes a cell in memory, and the file takes as much.
+// Limit of the cells. While a netCDF file is made, the grid takes 5 bytes a cell in memory, and the
+// file as much again.
 constexpr std::size_t most_netcdf_cells = std::size_t{1} << 24;
 
 std::string file_name_of(const OpenGrid& grid, std::string_view extension) {

@@ -84,7 +84,7 @@ ApiJson provenance_json(const grid::Provenance& from) {
                  {"left_out", from.left_out},
                  {"provisional", from.provisional},
                  {"revision", from.revision}};
-    json["source_modified"] = nullptr;  // an old key; grids no longer record this
+    json["source_modified"] = nullptr;  // an old key, which grids no longer record
     json["recipe"] = from.recipe == 0 ? ApiJson() : ApiJson(fmt::format("{:016x}", from.recipe));
     json["sweeps"] = sweep_times_json(from);
     json["parts"] = frame_parts_json(from);
@@ -112,7 +112,7 @@ ApiJson audit_json_of(const OpenGrid& grid) {
         {"unit", unit}, {"summary", grid::errors_text(grid::pooled(rows), unit)}, {"rows", list}};
 }
 
-// A grid in a list. Lists are sorted by time, then name.
+// A grid in a list. A list is sorted by time, then name.
 struct ListedGrid {
     UtcTime time;
     std::string domain;

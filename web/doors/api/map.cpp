@@ -1,4 +1,4 @@
-// The built-in base map: lines and cities of an area.
+// The operation that returns the built-in base map: the lines and cities in an area.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -88,8 +88,8 @@ double five_places(double degrees) {
     return std::round(degrees * 1e5) / 1e5;
 }
 
-// The map's longitudes are from -180 to 180. In a box across the antimeridian, lines and cities to
-// the east of the antimeridian get a full turn more.
+// The longitudes of the map are from -180 to 180. If a box crosses the antimeridian, lines and
+// cities beyond it must get a full turn more.
 constexpr std::array<double, 2> turns_deg{0, 360};
 
 bool is_seen(const render::MapLine& line, const RegionBox& box, double turn_deg) {
@@ -146,7 +146,7 @@ ApiJson cities_json(const render::BaseMap& map, const MapRequest& wanted) {
         const bool inside =
             longitude <= box.east_deg && latitude >= box.south_deg && latitude <= box.north_deg;
         if (!inside) continue;
-        if (cities.size() >= most_cities) break;  // the largest come first
+        if (cities.size() >= most_cities) break;  // the largest cities come first
         cities.push_back({{"name", city.name},
                           {"population", city.population},
                           {"place", {five_places(longitude), five_places(latitude)}}});

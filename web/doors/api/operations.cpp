@@ -211,7 +211,7 @@ std::string_view schema_type(ApiKind kind) {
     return kind == ApiKind::number ? "number" : kind == ApiKind::whole ? "integer" : "string";
 }
 
-// Returns the names in braces, in order of appearance.
+// Returns the names in braces, in the order of their appearance.
 std::vector<std::string_view> names_in_braces(std::string_view path) {
     std::vector<std::string_view> names;
     for (const std::string_view segment : segments_of(path)) {
@@ -307,8 +307,8 @@ Answer api_index(const ApiCall& call) {
     return json_answer(call.request, {{"operations", list}});
 }
 
-// Answers if no events are served. Otherwise the door of web/doors/events/events.h answers this
-// path.
+// Answers that no events are served. If events are served, the door of web/doors/events/events.h
+// answers this path instead.
 Answer api_no_events(const ApiCall& /*call*/) {
     return json_error(404, "this server serves no events");
 }

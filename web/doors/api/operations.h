@@ -1,5 +1,6 @@
-// web/doors/api/operations.h -- the one table of the API's operations. Requests find their
-// operation in it; the OpenAPI document and the table in docs/web/grids.md are generated from it.
+// web/doors/api/operations.h -- the table of all operations of the API. The operation for a request
+// is found in it, and the OpenAPI document and the table in docs/web/grids.md are generated from
+// it.
 //
 // Threads   Constants.
 #pragma once
@@ -30,18 +31,18 @@ struct ApiOperation {
     std::string_view content_type;
     std::span<const unsigned> errors;
     Answer (*answer)(const ApiCall& call);
-    // Returns the answer within microseconds if it is in memory. The pointer is null for operations
-    // that keep no answers.
+    // Returns the answer if it is in memory; takes microseconds. Null for operations that keep no
+    // answers.
     std::optional<Answer> (*answer_at_once)(const ApiCall& call) = nullptr;
 };
 
 [[nodiscard]] std::span<const ApiOperation> api_operations();
-// Describes the path segment of a name in braces; empty if the name is unknown.
+// Returns a description of a path segment, by its name in braces; empty if the name is unknown.
 [[nodiscard]] std::string_view api_path_parameter(std::string_view name);
 // Returns the OpenAPI 3.1 document.
 [[nodiscard]] ApiJson openapi_document(std::string_view base);
 
-// The operations.
+// The functions that do the operations.
 Answer api_index(const ApiCall& call);
 Answer api_openapi(const ApiCall& call);
 Answer api_stations(const ApiCall& call);

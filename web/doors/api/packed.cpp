@@ -1,5 +1,5 @@
-// Operations that give the packed form: whole grids, parts of large ones, halved ones, and grids
-// between volumes.
+// Operations that return the packed form of whole grids, of parts of large grids, of halved grids,
+// and of grids between volumes.
 #include "base/checksum.h"
 #include "grid/cells/cut_bricks.h"
 #include "pipeline/mosaic/between_grids.h"
@@ -16,12 +16,12 @@ namespace {
 constexpr std::chrono::seconds a_year{31'536'000};
 constexpr int threads_of_a_computation = 1;
 
-// A range of columns of bricks, both ends inclusive.
+// A range of columns of bricks. Both ends are included.
 struct BrickWindow {
     std::size_t first_x = 0, last_x = 0, first_y = 0, last_y = 0;
 };
 
-// The part and form of a grid that a request asks for.
+// The part of a grid that a request asks for, and its form.
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
     std::size_t first = 0, end = 0;     // of `bricks`
@@ -34,7 +34,7 @@ struct PackedRequest {
     std::optional<std::string> id;
     Coding coding = Coding::identity;
 
-    // Returns a key that distinguishes this answer from all others of the same grid.
+    // Returns a text that differs from that of all other answers about the same grid, for a key.
     [[nodiscard]] std::string text() const {
         const std::string cut = window
                                     ? fmt::format("-w{}-{}-{}-{}", window->first_x, window->last_x,
@@ -76,7 +76,8 @@ Status read_part(const ApiCall& call, PackedRequest& wanted) {
     return {};
 }
 
-// Reads "FIRST-LAST,FIRST-LAST": bricks from west to east, then from south to north.
+// Reads "FIRST-LAST,FIRST-LAST": the range of bricks from west to east, and the range from south to
+// north.
 Status read_window(const ApiCall& call, PackedRequest& wanted) {
     const auto text = call.request.parameter("window");
     if (!text) return {};
@@ -164,7 +165,7 @@ Result<ApiState::Halved> find_or_halve(ApiState& state, const OpenGrid& grid,
     return made;
 }
 
-// Cuts out the window. Errors: bad_argument for a window outside the grid, or one of more bricks
+// Cuts out the window. Errors: bad_argument if the window is outside the grid, or has more bricks
 // than one answer may have.
 Result<grid::BrickGrid> cut(const grid::BrickView& view, const BrickWindow& window) {
     const auto columns_x = static_cast<std::size_t>(view.bricks_x);
@@ -222,7 +223,8 @@ Answer packed_answer(const Request& request, const Kept& kept,
     return answer_with(request, std::move(entity));
 }
 
-// Bytes requested by id never change; bytes requested by time may be used as long as a picture.
+// Returns how long clients may reuse the answer. Bytes requested by id never change. Bytes
+// requested by time may be reused as long as a picture.
 std::optional<std::chrono::seconds> max_age_of_packed(const ApiCall& call,
                                                       const PackedRequest& wanted,
                                                       const OpenGrid& grid) {
@@ -239,7 +241,7 @@ Result<Kept> pack_frame(const pipeline::MosaicFrame& frame, Coding coding, Packe
     source.view = frame.mosaic.cells.view();
     auto bytes = pack_whole(source);
     if (!bytes) return pass_on(bytes);
-    // There is no file, so compute the id from the bytes.
+    // There is no file that has an id, so compute the id from the bytes.
     const std::uint64_t id = xxh3_64(std::as_bytes(std::span(*bytes)));
     std::memcpy(bytes->data() + offsetof(PackedHeader, id), &id, sizeof id);
     return compress_packed(bytes, coding, fmt::format("\"{:016x}-{}\"", id, coding_name(coding)));
@@ -309,7 +311,7 @@ Answer api_between(const ApiCall& call) {
         return json_error(404, "there is no such domain");
     }
     const Coding coding = coding_for(call.request);
-    // The answer may change as soon as anything in the domain changes, so the key has the count of
+    // The answer may change when anything in the domain changes, so the key includes the count of
     // changes.
     const std::string key =
         fmt::format("between/{}/{}/{}/{}/{}", named->domain, level2::moment_name(named->moment),
@@ -334,8 +336,8 @@ Answer api_region_packed(const ApiCall& call) {
     std::string key =
         fmt::format("region/{}/{}/{}/{}", asked->name, level2::moment_name(asked->plan.moment),
                     format_utc(*time), coding_name(coding));
-    // The answer may change as soon as a site's grids change, so the key has the count of changes
-    // of each site.
+    // The answer may change when the grids of a site change, so the key includes each site's count
+    // of changes.
     for (const std::string& site : asked->plan.sites)
         key += fmt::format("/{}", call.grids().changes_of(site));
     KeptAnswers& answers = *call.state.sources().kept;

@@ -1,4 +1,4 @@
-// Operations on a box over several sites, which is treated as a domain of its own.
+// Operations on a region: a box over several sites, which is treated like a domain.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,7 +9,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns the name of a region. Three decimal places are some 100 m and keep it short.
+// Returns the name of a region, with its box. Three decimal places, some 100 m, keep the name
+// short.
 std::string region_text(const RegionBox& box) {
     const auto side = [](double degrees) { return std::round(degrees * 1e3) / 1e3; };
     return fmt::format("{},{},{},{}", side(box.west_deg), side(box.south_deg), side(box.east_deg),

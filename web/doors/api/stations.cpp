@@ -18,7 +18,7 @@ ApiJson age_json(UtcTime time, UtcTime now) {
     return std::floor(seconds_between(time, now));
 }
 
-// Returns the time of the newest volume or grid, and its age; null if there is none.
+// Returns the time of the newest volume or grid, and its age; JSON null if there is none.
 ApiJson newest_json(std::optional<UtcTime> time, UtcTime now) {
     if (!time) return nullptr;
     return {{"time", format_utc(*time)}, {"age_s", age_json(*time, now)}};
@@ -39,7 +39,8 @@ ApiJson station_place_json(const ApiCall& call, const std::string& icao) {
 
 using Catalog = decltype(std::declval<ApiState>().catalog());
 
-// Returns the stations that have volumes or grids of their own, or all known stations.
+// Returns the stations that have volumes or grids of their own. If `known`, returns all known
+// stations.
 std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog, bool known) {
     std::set<std::string> names;
     if (catalog) {
@@ -60,7 +61,7 @@ std::set<std::string> station_names(const ApiCall& call, const Catalog& catalog,
     return names;
 }
 
-// Returns for each silent station the seconds since something came.
+// Returns, for each silent station, how many seconds ago something came from it last.
 std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     std::map<std::string, double> silences;
     const auto& feed = call.state.sources().feed;
@@ -72,7 +73,7 @@ std::map<std::string, double> silences_s(const ApiCall& call, UtcTime now) {
     return silences;
 }
 
-// Returns null if the station has no volume, and none if its database cannot be read now.
+// Returns JSON null if the station has no volume, and none if its database cannot be read now.
 std::optional<ApiJson> newest_volume_json(const Catalog& catalog, const std::string& icao,
                                           UtcTime now) {
     const auto of_failure = [](const Error& error) {
@@ -137,7 +138,7 @@ Answer api_volumes(const ApiCall& call) {
     const auto catalog = call.state.catalog();
     if (!catalog) return json_error(catalog.error());
     const std::size_t count = range->limit;
-    // Request one entry more than wanted, to see whether the list goes on.
+    // Request one entry more than wanted, to see whether there are more.
     const auto entries = (*catalog)->list(*icao, {range->from, range->to, false, count + 1});
     if (!entries) return json_error(entries.error());
     const std::size_t skipped = entries->size() > count ? entries->size() - count : 0;

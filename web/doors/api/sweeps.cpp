@@ -22,7 +22,7 @@
 namespace stormcellar::web {
 namespace {
 
-// Limit of a decoded volume, which usually takes some tens of megabytes.
+// Limit of a decoded volume. It usually takes some tens of megabytes.
 constexpr std::uint64_t most_volume_bytes = std::uint64_t{256} << 20;
 
 struct FoundVolume {
@@ -31,8 +31,9 @@ struct FoundVolume {
     std::string key;  // changes when the volume's file changes
 };
 
-// Finds the last volume in the catalog that starts at the time, because a volume that was sent
-// again replaces the others. A volume whose file is gone is used only if all files are gone.
+// Finds the volume in the catalog that starts at the time. If several do, takes the last, because a
+// volume that is sent again replaces the earlier ones. Uses a volume whose file is gone only if all
+// files are gone.
 Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     const auto icao = icao_of(call.path_value("station"));
     if (!icao) return refuse(json_error(404, "there is no such station"));
@@ -63,7 +64,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     if (found->state == catalog::FileState::gone) {
         return refuse(json_error(410, "the file of the volume was removed by its owner"));
     }
-    // For a volume of chunks, the row has the first chunk's path and hash.
+    // For a volume in chunks, the row has the path and the hash of the first chunk only.
     const auto rows = pipeline::hash_of_growing_rows(**catalog, *found);
     if (!rows) return refuse(rows.error());
     std::string key = fmt::format(
@@ -72,7 +73,7 @@ Answered<FoundVolume> find_cataloged(const ApiCall& call) {
     return FoundVolume{std::move(*catalog), std::move(*found), std::move(key)};
 }
 
-// Decodes the volume with the row's start, because a file may hold several volumes.
+// Decodes the volume that has the row's start, because a file may hold several volumes.
 Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     auto raw = pipeline::read_cataloged_volume(*found.catalog, found.entry);
     if (!raw) return pass_on(raw);
@@ -89,7 +90,7 @@ Result<ApiState::DecodedVolume> decode_found(const FoundVolume& found) {
     return fail(ErrorCode::not_found, "the file no longer holds the volume");
 }
 
-// Returns the kept volume if it is the requested one. Otherwise decodes the requested one, which
+// Returns the kept volume if it is the requested one. Otherwise decodes the requested volume, which
 // takes long.
 Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolume& found) {
     if (auto kept = call.state.find_volume(found.key)) return kept;
@@ -100,8 +101,8 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// Returns the volume as volume_of() does, but with velocities alone, and the moments that come from
-// them. VELD is always there, another only if it is the wanted moment.
+// Like volume_of(), but returns a volume with the wanted derived moment. Unless that is POW, the
+// volume has only velocities, VELD and the wanted moment.
 Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const FoundVolume& found,
                                                     level2::Moment wanted) {
     const std::string key = fmt::format("{}/{}", found.key, level2::moment_name(wanted));
@@ -116,8 +117,8 @@ Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const F
     return derived;
 }
 
-// Returns the sweeps that `stormcellar frame --product ppi` would draw: for each moment one sweep
-// of each elevation.
+// Returns the sweeps that `stormcellar frame --product ppi` would draw. For each moment, this is
+// one sweep of each elevation.
 std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Volume& volume,
                                                                std::string_view station) {
     std::set<std::pair<level2::Moment, std::size_t>> chosen;

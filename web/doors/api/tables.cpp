@@ -1,4 +1,4 @@
-// The operation that gives the color tables of the pictures.
+// The operation that returns the color tables of pictures.
 #include <span>
 
 #include "base/checksum.h"
@@ -36,8 +36,8 @@ Result<Kept> make_tables(Coding coding) {
 
 }  // namespace
 
-// The tables never change while the program runs, and their JSON is as large as a small grid, so it
-// is kept.
+// Answers with the tables. They are kept, because they never change while the program runs, and
+// their JSON is as large as a small grid.
 Answer api_tables(const ApiCall& call) {
     const Coding coding = coding_for(call.request);
     const auto kept = call.state.sources().kept->find_or_make(

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t most_filter_values = 64;  // of each list
 
-// Adds the values of a parameter, which may be repeated and may be lists with commas. `parse`
-// returns none for a value that makes no sense.
+// Adds the values of a parameter. The parameter may be repeated, and each may be a list with
+// commas. `parse` returns none for a value that makes no sense.
 template <class Values, class Parse>
 Status add_values(const Request& request, std::string_view name, std::string_view what, Parse parse,
                   Values& values) {
@@ -80,7 +80,7 @@ Result<EventFilter> filter_of(const Request& request) {
     return filter;
 }
 
-// Body of the answer to a HEAD request for the stream. The server reads nothing from it.
+// The body for a HEAD request. The server reads nothing from it.
 class NoEvents final : public Stream {
   public:
     std::optional<std::string> read(std::size_t /*most*/) override { return std::nullopt; }
@@ -92,7 +92,7 @@ class NoEvents final : public Stream {
 // Counts the open streams of each client.
 class EventsDoor::Places {
   public:
-    // Returns false if the limit of streams is reached.
+    // Takes a place for the client. Returns false if the limit of streams is reached.
     bool take(const std::string& client, const EventsOptions& options) {
         const MutexLock lock(mutex_);
         if (all_ >= options.most_streams) return false;
@@ -108,7 +108,7 @@ class EventsDoor::Places {
         if (--theirs->second == 0) by_client_.erase(theirs);
         --all_;
     }
-    // A listener as the server reads it. Its destructor releases the client's place.
+    // A listener that holds a place. Its destructor gives the client's place back.
     class Taken;
 
   private:
@@ -162,8 +162,8 @@ Answer EventsDoor::answer(const Request& request) {
         return come_back(std::chrono::seconds{10},
                          "There are as many streams of events as this server has; ask again.");
     }
-    // Programs that cannot set headers give the id as a parameter. A browser that reconnects sends
-    // the header. The header is newer, so it wins.
+    // A program that cannot set headers gives the id as a parameter. A browser that reconnects
+    // repeats the parameter and adds a header. The header is newer, so it counts.
     std::optional<std::string> id = request.header("Last-Event-ID");
     if (!id) {
         if (const auto given = request.parameter("last_event_id")) id = std::string(*given);

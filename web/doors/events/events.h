@@ -3,14 +3,14 @@
 //
 //   /api/v1/events?station=&domain=&moment=&kind=&last_event_id=
 //
-// A client hears of the stations and domains that it names, or of all if it names none, limited to
-// the moments and kinds that it names. A slow client takes at most one block of the server's memory
-// and the kernel's buffer of its socket. If an event leaves the ring of the newest events before
-// the client has read it, the event is lost and the client gets a reset.
+// A client hears of the stations and domains that it names, or of all if it names none. If it names
+// moments and kinds, it hears only of these. A slow client takes at most one block of the server's
+// memory, and the kernel's buffer of its socket. If an event leaves the ring of the newest events
+// before the client has read it, the event is lost, and the client gets a reset.
 //
 // Threads   Many threads may use it.
-// Errors    400 for a parameter that makes no sense, 404 below the path, 503 if too many streams
-//           are open, in all or for one client.
+// Errors    400 for a parameter that makes no sense, 404 for other paths below it, 503 if too many
+//           streams are open, in all or for one client.
 #pragma once
 
 #include <atomic>
@@ -38,7 +38,7 @@ class EventsDoor final : public Door {
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
-    // Returns the number of requests that were refused because too many streams were open.
+    // Returns how many requests were refused because too many streams were open.
     [[nodiscard]] std::uint64_t refused() const { return refused_; }
 
   private:

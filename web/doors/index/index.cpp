@@ -10,8 +10,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Returns true if the doors meet a condition such as "/api/v1 !/zarr": every door without "!" is
-// there, and no door with "!" is.
+// Returns true if a condition such as "/api/v1 !/zarr" holds: the server has every door that is
+// named without "!", and none that is named with "!". (A door answers the requests below one path.)
 bool holds(std::string_view condition, const std::vector<std::string>& doors) {
     while (!condition.empty()) {
         std::string_view door = condition.substr(0, condition.find(' '));
@@ -23,7 +23,7 @@ bool holds(std::string_view condition, const std::vector<std::string>& doors) {
     return true;
 }
 
-// Returns the page without the parts whose condition does not hold, and without conditions.
+// Returns the page without the parts whose condition does not hold. Removes the conditions.
 std::string parts_for(const std::vector<std::string>& doors, std::string_view page) {
     constexpr std::string_view begin = "<!--", end = "-->", word_if = "if ";
     std::string text;

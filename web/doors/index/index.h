@@ -1,9 +1,9 @@
-// web/doors/index/index.h -- the index page at "/", its style at "/index.css", its script at
-// "/index.mjs", and the answer to an address that no other door serves.
+// web/doors/index/index.h -- the door for the index page at "/", its style "/index.css" and its
+// script "/index.mjs". It also answers requests for addresses that no other door has.
 //
-// The page (index.html) links to the doors and shows how programs connect, with addresses to copy.
-// Its script asks /api/v1 for stations and mosaics. Style and script are separate files, since the
-// Content-Security-Policy allows neither within the page. index.html has these marks:
+// The page (index.html) links to the other doors, and shows how programs connect, with addresses to
+// copy. Its script asks /api/v1 for stations and mosaics. Style and script are separate files,
+// because the Content-Security-Policy does not allow them in the page. index.html has these marks:
 //
 //   <!--if /api/v1 !/zarr--> ... <!--end-->   a part that is left out unless the server has the
 //                                             first door and lacks the second
@@ -30,7 +30,7 @@ class IndexDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    const std::string page_;  // with the parts of these doors
+    const std::string page_;  // without the parts for doors that the server lacks
     const std::string bucket_;
 };
 

@@ -19,10 +19,10 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 1> read_by_door{"time"};
-// Look first among the newest grids, which usually have the answer, instead of listing all times.
+// Look first among grids this new, which usually have the answer, before listing all times.
 constexpr std::chrono::hours first_look{2};
 
-// Returns the newest of the ascending times at which there is a grid of every moment.
+// Returns the newest of these ascending times at which every moment has a grid.
 std::optional<UtcTime> newest_in_common(const Grids& grids, std::string_view domain,
                                         const std::vector<level2::Moment>& moments,
                                         std::optional<UtcTime> from, UtcTime to) {
@@ -49,7 +49,7 @@ std::vector<level2::Moment> moments_of_panels(const FrameStyle& style) {
     return moments;
 }
 
-// Returns the time of a domain's newest grid of any of the moments.
+// Returns the time of the newest grid that the domain has of any of the moments.
 std::optional<UtcTime> newest_of_any(const Grids& grids, std::string_view domain,
                                      const std::vector<level2::Moment>& moments) {
     std::optional<UtcTime> newest;

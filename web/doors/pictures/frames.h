@@ -1,11 +1,12 @@
-// web/doors/pictures/frames.h -- pictures as `stormcellar frame` draws them (docs/web/pictures.md).
+// web/doors/pictures/frames.h -- sends pictures as `stormcellar frame` draws them
+// (docs/web/pictures.md).
 //
 //   /frames                        the formats and parameters, as JSON
 //   /frames/DOMAIN.png?time=...    a picture; the ending gives its format
 //
 // The door draws the newest grid at or before the instant "time". Without "time", or with "latest",
-// it draws the newest grid. If panels show several moments, all are drawn at the newest instant at
-// which every moment has a grid. A ppi is drawn from the raw volume of the newest grid of any
+// it draws the newest grid. If panels show several moments, it draws them at the newest instant at
+// which every moment has a grid. A ppi is drawn from a raw volume: that of the newest grid of any
 // moment.
 //
 // Threads   Many threads may use it.
@@ -28,14 +29,14 @@ class FramesDoor final : public Door {
     FramesDoor(std::shared_ptr<Grids> grids, std::shared_ptr<FramePictures> pictures,
                std::shared_ptr<SweepPictures> sweeps)
         : grids_(std::move(grids)), pictures_(std::move(pictures)), sweeps_(std::move(sweeps)) {}
-    // Answers with a kept picture if its grids are open, or with a refusal. Leaves sweeps to
+    // Answers with a kept picture if its grids are open, or refuses. Leaves pictures of sweeps to
     // answer().
     std::optional<Answer> answer_at_once(const Request& request) override;
     Answer answer(const Request& request) override;
 
   private:
-    // A requested picture. The picture shows a grid of each moment at `time`. A picture of a sweep
-    // has one moment, and shows the raw volume of that moment's grid.
+    // A requested picture. It shows a grid of each moment at `time`. If it shows a sweep, it has
+    // one moment, and shows the raw volume of this moment's grid.
     struct Asked {
         std::string domain;
         FrameStyle style;
@@ -46,9 +47,9 @@ class FramesDoor final : public Door {
         [[nodiscard]] bool is_of_sweep() const;
     };
     [[nodiscard]] Found<Asked> asked(const Request& request) const;
-    // Sets `time` to the newest instant, `until` at the latest, at which every moment has a grid.
-    // For a sweep, a grid of one moment suffices, and that moment becomes the only one. Returns
-    // false if there is no such instant.
+    // Sets `time` to the newest instant at which every moment has a grid, but not later than
+    // `until`. For a sweep, a grid of one of the moments is enough, and this moment remains the
+    // only one. Returns false if there is no such instant.
     [[nodiscard]] bool find_grids(Asked& asked, UtcTime until) const;
     [[nodiscard]] Answer of_sweep(const Request& request, Asked asked);
     [[nodiscard]] Answer index(const Request& request) const;

@@ -42,7 +42,7 @@ UtcTime time_of_change(const struct stat& facts) {
                                              facts.st_mtim.tv_nsec / 1'000'000}};
 }
 
-// Returns an ETag from the file's inode, time and size.
+// Returns an ETag that is made from the file's inode, time and size.
 std::string tag_of_loop(const struct stat& facts) {
     return fmt::format("\"{:x}-{:x}-{:x}.{:x}\"", facts.st_ino, facts.st_size, facts.st_mtim.tv_sec,
                        facts.st_mtim.tv_nsec);
@@ -85,7 +85,7 @@ Answer LoopsDoor::index(const Request& request) const {
         ordered_json files = ordered_json::array();
         for (const fs::path& file : loop.files) {
             const auto facts = look_beneath({}, file);
-            // If several files have the same name and format, only the first one is served.
+            // If several files have the same name and format, serve only the first.
             if (!facts || file_named(name_of_loop(loop, file)) != file) continue;
             const std::string name = name_of_loop(loop, file);
             const std::string url = fmt::format("{}/loops/{}", request.base, encoded(name));

@@ -1,4 +1,4 @@
-// web/doors/pictures/loops.h -- the animations that stormcellard keeps up to date
+// web/doors/pictures/loops.h -- sends the animations that stormcellard keeps up to date
 // (docs/web/pictures.md).
 //
 //   /loops               the loops, as JSON or a page of links
@@ -26,7 +26,7 @@ class LoopsDoor final : public Door {
 
   private:
     [[nodiscard]] Answer index(const Request& request) const;
-    // Returns the file for "NAME.webp".
+    // Returns the file for a name such as "NAME.webp".
     [[nodiscard]] std::optional<std::filesystem::path> file_named(std::string_view name) const;
 
     std::vector<ServedLoop> loops_;

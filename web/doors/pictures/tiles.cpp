@@ -34,7 +34,7 @@ Answer json_of_pictures(const Request& request, const TileJson& document) {
                           document.dump(-1, ' ', false, TileJson::error_handler_t::replace) + "\n");
 }
 
-// Returns the options of a query as text again, for links.
+// Returns the options of a query as text, for links.
 std::string query_text(const Fields& query) {
     std::string text;
     for (const auto& [name, value] : query) {
@@ -44,7 +44,7 @@ std::string query_text(const Fields& query) {
     return text;
 }
 
-// Returns the deepest zoom to offer, at which a cell is about eight pixels wide.
+// Returns the deepest zoom that is offered. A cell is then about eight pixels wide.
 int useful_zoom(const grid::GridSpec& spec) {
     const double cell_m = spec.cell_height_m() / 8;
     const double at_equator_m = 2 * render::mercator_edge_m / 256;
@@ -53,7 +53,7 @@ int useful_zoom(const grid::GridSpec& spec) {
 }
 
 TileJson bounds_of(const render::EarthBox& box) {
-    // TileJSON knows longitudes from -180 to 180 only, so a box across the antimeridian spans all
+    // TileJSON has only longitudes from -180 to 180, so a box across the antimeridian must span all
     // of them.
     const bool crosses = box.west_deg < -180 || box.east_deg > 180;
     const auto held = [](double latitude) {

@@ -4,8 +4,8 @@
 //   /tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png            256 pixels, in Web Mercator; "@2x": 512
 //   /tiles/DOMAIN/LAYER/TIME/tilejson.json              TileJSON 3.0
 //
-// LAYER is a name of web/data/pictures/map_product.h, and TIME is "latest" or the instant of a
-// grid. The options of the layer are parameters.
+// LAYER is a name of web/data/pictures/map_product.h. TIME is "latest" or the instant of a grid.
+// The options of the layer are parameters.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -19,14 +19,15 @@
 
 namespace stormcellar::web {
 
-// A tile of the pyramid: zoom 0 is the whole earth, row 0 the northernmost.
+// The place of a tile. Zoom 0 is the whole earth, and row 0 is the northernmost.
 struct TilePlace {
     int zoom = 0;
     int column = 0, row = 0;
     int side = 256;  // pixels
 };
 inline constexpr int deepest_zoom = 22;
-// Reads "5", "7", "12.png" or "12@2x.png". Returns none if there is no such tile.
+// Reads the parts of an address, such as "5", "7" and "12.png" or "12@2x.png". Returns none if
+// there is no such tile.
 [[nodiscard]] std::optional<TilePlace> tile_place_of(std::string_view zoom, std::string_view column,
                                                      std::string_view file);
 [[nodiscard]] render::PlaneWindow window_of(const TilePlace& place);

@@ -1,4 +1,5 @@
-// web/doors/raw/polling.h -- the files that GR2Analyst, GRLevel2 and others poll (docs/web/raw.md).
+// web/doors/raw/polling.h -- sends the files that GR2Analyst, GRLevel2 and others poll
+// (docs/web/raw.md).
 //
 //   /nexrd2/config.cfg and grlevel2.cfg   the name of the lists, and a line for each station
 //   /nexrd2/STATION/dir.list              a line "SIZE NAME" for each of the newest volumes, the

@@ -5,8 +5,8 @@ namespace {
 
 constexpr std::chrono::seconds settled_holds_for{60}, cataloged_again_in{5};
 
-// Makes the entity. If the requested name is only the beginning of the file's name, clients save
-// the volume under the whole name, whose ending tells how it is packed.
+// Makes the entity. If the requested name is only the beginning of the file's name, clients are
+// told to save the volume under the whole name, because its ending tells how it is packed.
 Entity entity_of(const OpenedVolume& volume, std::string_view asked_for) {
     Entity entity = entity_of(volume);
     const std::string& name = volume.volume.name;
@@ -66,7 +66,7 @@ std::optional<Answer> named_volume_at_once(const Request& request, RawFiles& fil
 
 Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now) {
     if (text == "present") return now;
-    // An unencoded '+' in a query has become a space.
+    // In a query, an unencoded '+' has become a space.
     for (const std::string_view zone : {"+00:00", " 00:00", "+0000", " 0000"})
         if (text.size() > zone.size() && text.ends_with(zone)) text.remove_suffix(zone.size());
     return parse_utc(text, now);

@@ -1,4 +1,4 @@
-// web/doors/raw/raw_answers.h -- answers with a raw volume, shared by several doors.
+// web/doors/raw/raw_answers.h -- makes answers with a raw volume, for several doors.
 //
 // Threads   Functions without state.
 #pragma once
@@ -11,27 +11,27 @@
 
 namespace stormcellar::web {
 
-// Returns the entity of a volume. Clients may use a volume that does not grow for a minute without
-// asking again. They may not use it longer, because the volume may be sent again. Clients must ask
-// each time for a growing volume.
+// Returns the entity of a volume. If the volume does not grow, clients may reuse it for a minute
+// without asking again, but not longer, because it may be sent again. If the volume grows, they
+// must ask each time.
 [[nodiscard]] Entity entity_of(const OpenedVolume& volume);
 
-// Answers 404, 410 for a deleted file, and 503 with Retry-After for a file that changed since it
-// was cataloged or that cannot be read now.
+// Answers 404, or 410 for a deleted file, or 503 with Retry-After for a file that has changed since
+// it was cataloged or that cannot be read now.
 [[nodiscard]] Answer missing_answer(const RawFailure& failure);
 
 [[nodiscard]] Answer volume_answer(const Request& request, RawFiles& files,
                                    std::string_view station, std::string_view name);
-// Answers with the volume if RawFiles::open_kept() returns it; returns none otherwise.
+// Answers with the volume if RawFiles::open_kept() has it; else returns none.
 [[nodiscard]] std::optional<Answer> volume_answer_at_once(const Request& request, RawFiles& files,
                                                           std::string_view station,
                                                           std::string_view name);
 
-// Answers a request for /DOOR/STATION/NAME if volume_answer_at_once() has the answer; returns none
-// for other paths.
+// Answers a request for /DOOR/STATION/NAME if volume_answer_at_once() has the answer. Otherwise,
+// and for other paths, returns none.
 [[nodiscard]] std::optional<Answer> named_volume_at_once(const Request& request, RawFiles& files);
 
-// Reads a time of a query: the forms of parse_utc(), an offset of zero, or "present".
+// Reads a time in a query: one of the forms of parse_utc(), with an offset of zero, or "present".
 [[nodiscard]] Result<UtcTime> time_of_parameter(std::string_view text, UtcTime now);
 
 }  // namespace stormcellar::web

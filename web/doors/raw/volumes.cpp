@@ -18,7 +18,7 @@ constexpr std::size_t usual_limit = 1000, highest_limit = 10'000;
 
 Result<RawRange> range_of_query(const Request& request) {
     RawRange range;
-    // A program that follows links never asks for a second list, so its list is longer.
+    // A program that follows links never asks for another list, so its list is longer.
     range.most = request.prefers_html() ? highest_limit : usual_limit;
     range.newest_first = true;
     range.with_sizes = true;

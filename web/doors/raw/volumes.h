@@ -1,4 +1,4 @@
-// web/doors/raw/volumes.h -- raw volumes by station and name (docs/web/raw.md).
+// web/doors/raw/volumes.h -- lists and sends raw volumes by station and name (docs/web/raw.md).
 //
 //   /volumes/                the stations
 //   /volumes/STATION/        its volumes, the newest first; ?from= &to= &limit=

@@ -24,8 +24,8 @@ std::string day_text(sys_days day) {
                        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
 }
 
-// Returns the first day whose text is not less than `text`; none if there is none. Texts ascend
-// with days.
+// Returns the first day whose text is not less than `text`, or none if there is none. The texts of
+// days are in the order of the days.
 std::optional<sys_days> day_not_less(std::string_view text) {
     sys_days low = earliest_day, high = latest_day + days{1};
     while (low < high) {
@@ -70,8 +70,8 @@ Status S3Keys::find_stations() {
     return {};
 }
 
-// Returns a day's objects. `from` and `end` bound the part of the key behind the day
-// ("KTLX/KTLX20220317_0008" or less); empty means that the whole day counts.
+// Returns the objects of a day. `from` and `end` bound the part of the key after the day
+// ("KTLX/KTLX20220317_0008" or shorter); an empty bound means that the whole day counts.
 Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from,
                                              std::string_view end, std::size_t most) const {
     std::vector<S3Object> objects;
@@ -87,7 +87,7 @@ Result<std::vector<S3Object>> S3Keys::of_day(sys_days day, std::string_view from
         range.to = UtcTime{day + days{1}} - std::chrono::milliseconds{1};
         if (const auto time = time_of_raw_name(station, name_from))
             range.from = std::max(*range.from, *time);
-        // Names of one second may differ in their endings, so ask for a few more.
+        // Names of the same second may differ in their endings, so ask for a few more.
         range.most = most - objects.size() + (name_from.empty() ? 0 : 4);
         range.with_sizes = true;
         auto volumes = files_->list(station, range);
@@ -122,7 +122,7 @@ Result<std::optional<sys_days>> S3Keys::next_day(sys_days day) const {
 Result<std::vector<S3Object>> S3Keys::between(std::string_view from, std::string_view end,
                                               std::size_t most) {
     if (Status found = find_stations(); !found) return pass_on(found);
-    // Returns the part of a bound behind the day if the bound is within the day, else empty.
+    // Returns the part of a bound after the day if the bound is in this day, else an empty text.
     const auto within = [](std::string_view bound, sys_days day) {
         const bool is_within = bound.substr(0, day_size) == day_text(day);
         return is_within ? bound.substr(day_size) : std::string_view{};

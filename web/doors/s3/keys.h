@@ -1,9 +1,10 @@
-// web/doors/s3/keys.h -- raw volumes in the order of their keys in the public bucket,
+// web/doors/s3/keys.h -- lists raw volumes in the order of their keys in the public bucket,
 // YYYY/MM/DD/STATION/NAME.
 //
-// Keys are in the order of days, then of stations, then of times. A walk reads one station and one
-// day at a time through the catalog's index; at the end of a day it asks all stations for their
-// next volume. A walk has an end bound, so a list of one station's day reads nothing else.
+// Keys are in the order of days, then of stations, then of times. A walk through the keys reads one
+// station and one day at a time, through the catalog's index. At the end of a day it asks all
+// stations for their next volume. A walk has an end, so a list of one station's day reads nothing
+// else.
 //
 // Threads   One thread at a time.
 // Errors    Those of RawFiles.
@@ -26,7 +27,7 @@ struct S3Key {
     std::chrono::sys_days day;
     std::string station, name;
 };
-// Returns none if no volume can have the key.
+// Returns the parts of a key, or none if no volume can have this key.
 [[nodiscard]] std::optional<S3Key> parse_s3_key(std::string_view key);
 
 struct S3Object {
@@ -34,14 +35,14 @@ struct S3Object {
     RawVolume volume;
 };
 
-// The bucket as one list sees it. It reads the stations once, at its first query.
+// The bucket during one list. The stations are read once, at the first query.
 class S3Keys {
   public:
     explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
 
-    // Returns objects from the first key that is not less than `from`, with keys less than `end`
-    // (empty: no bound), at most `most` of them. With `most` > 1 the result may be shorter although
-    // more objects follow; only an empty result means that the end is reached.
+    // Returns at most `most` objects, from the first key that is not less than `from`, with keys
+    // less than `end` (empty: no bound). If `most` is above 1, the result may be shorter although
+    // more objects follow; only an empty result means that there are no more.
     [[nodiscard]] Result<std::vector<S3Object>> between(std::string_view from, std::string_view end,
                                                         std::size_t most);
 
@@ -51,7 +52,7 @@ class S3Keys {
     [[nodiscard]] Result<std::vector<S3Object>> of_day(std::chrono::sys_days day,
                                                        std::string_view from, std::string_view end,
                                                        std::size_t most) const;
-    // Returns the first day, `day` or later, that has a volume.
+    // Returns the first day, not before `day`, that has a volume.
     [[nodiscard]] Result<std::optional<std::chrono::sys_days>> next_day(
         std::chrono::sys_days day) const;
     const std::shared_ptr<RawFiles> files_;

@@ -17,7 +17,7 @@ std::string text_or_nothing(const Request& request, std::string_view name) {
     return std::string{request.parameter(name).value_or("")};
 }
 
-// Returns the least text that is greater than all texts that begin with these bytes.
+// Returns the smallest text that is greater than all texts that begin with these bytes.
 std::string behind_all(std::string text) {
     while (!text.empty() && static_cast<unsigned char>(text.back()) == 0xFF)
         text.pop_back();
@@ -25,7 +25,8 @@ std::string behind_all(std::string text) {
     return text;
 }
 
-// Returns the key up to the first delimiter behind the prefix; empty if there is no delimiter.
+// Returns the key up to the first delimiter after the prefix. Returns an empty text if there is
+// none.
 std::string common_prefix_of(std::string_view key, const S3ListOptions& options) {
     if (options.delimiter.empty()) return {};
     const std::size_t at = key.find(options.delimiter, options.prefix.size());
@@ -33,7 +34,7 @@ std::string common_prefix_of(std::string_view key, const S3ListOptions& options)
     return std::string{key.substr(0, at + options.delimiter.size())};
 }
 
-// Returns a key as listings show it: with encoding-type=url it is encoded, except for slashes.
+// Returns a key as listings show it. With encoding-type=url, it is encoded, except for its slashes.
 std::string encoded_key(std::string_view key, const S3ListOptions& options) {
     if (!options.encodes_keys) return std::string{key};
     std::string out;
@@ -52,7 +53,7 @@ class S3Lister {
     S3Lister(S3Keys& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
         place_ = std::max(options.prefix, options.after);
         end_ = behind_all(options.prefix);
-        // If the last entry of the previous answer was a common prefix, skip all keys below it.
+        // If the previous answer ended with a common prefix, skip all keys below it.
         if (!options.after.empty()) {
             const bool is_prefix = options.after.starts_with(options.prefix) &&
                                    common_prefix_of(options.after, options) == options.after;
@@ -63,7 +64,7 @@ class S3Lister {
 
     Result<S3Listing> list() {
         while (!is_over_) {
-            // While directories are listed, one key of each is enough.
+            // If the list has common prefixes, one key of each is enough.
             const std::size_t wanted = skips_ ? 1 : options_.most - count() + 1;
             const auto batch = keys_.between(place_, end_, wanted);
             if (!batch) return pass_on(batch);

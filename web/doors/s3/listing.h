@@ -1,4 +1,4 @@
-// web/doors/s3/listing.h -- ListObjects and ListObjectsV2 over the volumes of a bucket.
+// web/doors/s3/listing.h -- answers ListObjects and ListObjectsV2 for the volumes of a bucket.
 //
 // Threads   Functions without state.
 // Errors    bad_argument for parameters that make no sense, and those of S3Keys.
@@ -16,10 +16,10 @@ struct S3ListOptions {
     bool is_version_2 = false;
     std::string prefix, delimiter;
     std::size_t most = 1000;
-    // The list begins after this key. If it is a common prefix, the list also leaves out all keys
+    // The list begins after this key. If this is a common prefix, the list also leaves out all keys
     // below it.
     std::string after;
-    std::string token;  // of version 2, unchanged from the request
+    std::string token;  // of version 2, as the request has it
     std::string start_after;
     bool encodes_keys = false;
     bool names_owner = false;
@@ -29,7 +29,7 @@ struct S3ListOptions {
 struct S3Listing {
     std::vector<S3Object> objects;
     std::vector<std::string> common_prefixes;
-    std::string next;  // the last entry, if more follow; else empty
+    std::string next;  // the last entry if more follow; else empty
 };
 [[nodiscard]] Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options);
 

@@ -49,7 +49,7 @@ Answer missing_object(const RawFailure& failure, const Request& request) {
     return s3_error(404, "NoSuchKey", "The specified key does not exist.", request);
 }
 
-// Parameters that ask for something other than a list or the object's bytes.
+// Parameters that ask for something other than a list or the bytes of an object.
 constexpr std::array<std::string_view, 20> other_resources = {
     "accelerate", "acl",      "analytics", "attributes",   "cors",    "encryption",  "inventory",
     "lifecycle",  "logging",  "metrics",   "notification", "policy",  "replication", "tagging",
@@ -65,7 +65,7 @@ std::optional<Answer> refused_resource(const Request& request) {
     return std::nullopt;
 }
 
-// The path behind /s3/: a bucket, and a key if a slash follows the bucket.
+// The path after /s3/: a bucket, and a key if a slash follows the bucket.
 struct S3Path {
     std::string_view bucket, key;
 };

@@ -1,5 +1,5 @@
-// web/doors/s3/s3.h -- raw volumes as the objects of a bucket, as rclone, awscli, nexradaws and
-// s3fs ask for them (docs/web/raw.md).
+// web/doors/s3/s3.h -- raw volumes as the objects of a bucket, for clients such as rclone, awscli,
+// nexradaws and s3fs (docs/web/raw.md).
 //
 //   /s3/                               ListBuckets
 //   /s3/BUCKET, /s3/BUCKET/            HeadBucket, GetBucketLocation (?location), ListObjects and
@@ -7,9 +7,8 @@
 //   /s3/BUCKET/YYYY/MM/DD/STATION/NAME GetObject, HeadObject
 //
 // Objects have the keys of the public bucket. The server ignores signatures, because everybody who
-// reaches it may read.
-// Errors are XML, with the codes of S3. An ETag contains '-', so no client takes it for the MD5 of
-// the object.
+// reaches it may read. Errors are XML, with the codes of S3. An ETag contains '-', so that no
+// client takes it for the MD5 of the object.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -24,7 +23,7 @@ namespace stormcellar::web {
 
 inline constexpr std::string_view s3_namespace = "http://s3.amazonaws.com/doc/2006-03-01/";
 
-// Returns "2022-03-17T00:12:33.000Z": whole seconds, as in Last-Modified.
+// Returns a time such as "2022-03-17T00:12:33.000Z", in whole seconds as in Last-Modified.
 [[nodiscard]] std::string s3_time(UtcTime time);
 // Returns the tag of a listed object, with its quotes.
 [[nodiscard]] std::string s3_tag(const RawVolume& volume);

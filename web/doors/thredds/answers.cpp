@@ -21,7 +21,8 @@ void open_catalog(XmlWriter& xml, std::string_view name) {
                          {"version", "1.0.7"}});
 }
 
-// Returns "39.78" or "1675.0": always with a point, as other servers write numbers.
+// Returns a number such as "39.78" or "1675.0". It always has a point, because other servers write
+// numbers so.
 std::string decimal_text(double value) {
     std::string text = fmt::format("{}", value);
     if (text.find_first_of(".e") == text.npos) text += ".0";
@@ -41,7 +42,7 @@ void write_extent(XmlWriter& xml, std::string_view name, Extent extent, std::str
 }
 
 // Returns the range of longitudes that holds all stations and leaves out the widest gap between
-// them. Across the antimeridian it continues beyond 180.
+// them. If the range crosses the antimeridian, it continues beyond 180.
 Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     std::ranges::sort(stations_deg);
     double west = stations_deg.front(), east = stations_deg.back();
@@ -59,8 +60,8 @@ Extent longitudes_of(std::vector<double> stations_deg, double margin_deg) {
     return {start < -180 ? start + 360 : start, size};
 }
 
-// Writes the area that the radars see, in whole degrees. They reach 460 km, so the box has a margin
-// of 5 degrees around their places.
+// Writes the area that the radars see, in whole degrees. Radars reach 460 km, so the box has a
+// margin of 5 degrees around their places.
 void write_coverage(XmlWriter& xml, const std::vector<ThreddsStation>& stations) {
     constexpr double margin_deg = 5, top_km = 20;
     double north = -90, south = 90;

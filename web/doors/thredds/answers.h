@@ -1,7 +1,7 @@
 // web/doors/thredds/answers.h -- the catalogs of the THREDDS radar server, as XML.
 //
-// The format is InvCatalog 1.0. Bases of services are paths without scheme and host, so a client
-// that reached the server by https keeps using https.
+// The format is InvCatalog 1.0. The bases of services are paths without scheme and host. So a
+// client that reached the server by https goes on with https.
 //
 // Threads   Pure functions.
 #pragma once
@@ -16,10 +16,10 @@ namespace stormcellar::web {
 
 using ThreddsCollections = std::vector<std::shared_ptr<ThreddsCollection>>;
 
-// Returns the path of an address below this server, as clients see it: with the prefix of [web].
+// Returns the path of an address on this server as clients see it, with the prefix of [web].
 [[nodiscard]] std::string path_for_clients(const Request& request, std::string_view path);
 
-// Returns /thredds/catalog.xml, a reference to the radar server.
+// Returns /thredds/catalog.xml, which refers to the radar server.
 [[nodiscard]] std::string thredds_top_xml(const Request& request);
 // Returns /thredds/radarServer/catalog.xml.
 [[nodiscard]] std::string thredds_catalog_xml(const Request& request,
@@ -31,7 +31,7 @@ using ThreddsCollections = std::vector<std::shared_ptr<ThreddsCollection>>;
                                               std::optional<UtcTime> oldest);
 // Returns {ds}/stations.xml. Stations whose place is unknown are left out.
 [[nodiscard]] std::string thredds_stations_xml(const std::vector<ThreddsStation>& stations);
-// Returns the answer to a query. `asked` is the query as text.
+// Returns the answer to a query. `asked` is the text of the query.
 [[nodiscard]] std::string thredds_result_xml(const Request& request,
                                              const ThreddsCollection& collection,
                                              std::string_view asked,

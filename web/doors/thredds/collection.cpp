@@ -10,15 +10,16 @@ namespace {
 std::optional<Station> station_of_id(std::string_view id) {
     if (auto known = find_station(id)) return known;
     if (id.size() != 3) return std::nullopt;
-    // Level III drops the first letter, which is K in most states, P in the Pacific, and T for
-    // terminal radars.
+    // Level III drops the first letter of a station. It is K in most states, P in the Pacific, and
+    // T for terminal radars.
     for (const char* first : {"K", "P", "T"}) {
         if (auto known = find_station(first + std::string{id})) return known;
     }
     return std::nullopt;
 }
 
-// The table has two letters for a state of the United States, and the country's name elsewhere.
+// Sets the state or the country. The table has two letters for a state of the United States, and
+// the country's name for other places.
 void set_state(ThreddsStation& station, std::string_view state) {
     constexpr std::size_t letters_of_state = 2;
     const bool is_state = state.size() == letters_of_state;

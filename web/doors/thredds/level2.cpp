@@ -44,7 +44,7 @@ class Level2Collection final : public ThreddsCollection {
     std::vector<RawStation> placed_by_files() override;
 
   private:
-    // Returns true for STATION/YYYYMMDD/NAME of a station in this data set.
+    // Returns true if the path is STATION/YYYYMMDD/NAME, for a station of this data set.
     [[nodiscard]] bool is_path(std::span<const std::string_view> path) const;
     [[nodiscard]] bool has_station(std::string_view id) const;
 
@@ -55,7 +55,8 @@ class Level2Collection final : public ThreddsCollection {
         STORMCELLAR_GUARDED_BY(mutex_);
 };
 
-// Returns the names of Unidata's server, with which clients compare.
+// Returns the variables with the names that Unidata's server gives them, because clients compare
+// these names.
 std::vector<ThreddsVariable> Level2Collection::variables() const {
     const std::string radar = "EARTH SCIENCE > Spectral/Engineering > Radar >";
     return {{"CorrelationCoefficient", "dimensionless", radar},
@@ -133,7 +134,7 @@ Result<std::vector<ThreddsFile>> Level2Collection::list(ThreddsSeries series,
 bool Level2Collection::is_path(std::span<const std::string_view> path) const {
     if (path.size() != 3 || !has_station(path[0])) return false;
     const auto time = time_of_raw_name(path[0], path[2]);
-    // A client may also use the name of the dropped file, with any day.
+    // A client may also give the name of the dropped file, with any day.
     return path[1].size() == digits_of_day && (!time || format_compact(*time).starts_with(path[1]));
 }
 

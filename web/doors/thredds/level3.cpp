@@ -1,5 +1,5 @@
-// A data set of Level III: files of products in a directory. Unidata's LDM configurations name
-// them, as in Level3_FTG_N0Q_20150615_1201.nids. The server does not read their contents.
+// A data set of Level III: the files of products in a directory. LDM configurations of Unidata give
+// them names such as Level3_FTG_N0Q_20150615_1201.nids. The server does not read their contents.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -35,7 +35,7 @@ struct ProductName {
     UtcTime start{};
 };
 
-// Reads "Level3_FTG_N0Q_20150615_1201.nids".
+// Reads a name such as "Level3_FTG_N0Q_20150615_1201.nids".
 std::optional<ProductName> product_of(std::string_view name) {
     if (!name.starts_with(product_beginning) || !name.ends_with(product_ending)) {
         return std::nullopt;
@@ -75,7 +75,7 @@ class Level3Collection final : public ThreddsCollection {
     Result<std::vector<std::string>> station_ids() override;
 
   private:
-    // Names of files by their times. A query may look up 10,000 times, so the map cannot be copied.
+    // Names of files by their times. It cannot be copied, because a query may look up 10,000 times.
     struct Times : std::map<UtcTime, std::string> {
         Times() = default;
         Times(const Times&) = delete;
@@ -83,7 +83,7 @@ class Level3Collection final : public ThreddsCollection {
     };
     using Index = std::map<std::pair<std::string, std::string>, Times>;
     [[nodiscard]] Result<std::shared_ptr<const Index>> index();
-    // Returns the times with their names, which keep the shared index alive.
+    // Returns the times with their names. The result keeps the shared index alive.
     [[nodiscard]] Result<std::shared_ptr<const Times>> times_of(ThreddsSeries series);
 
     Mutex mutex_;
@@ -111,7 +111,7 @@ Result<std::shared_ptr<const Level3Collection::Index>> Level3Collection::index()
             if (product && std::ranges::count(configured().variables, product->variable) > 0)
                 served.emplace_back(std::move(*product), &name);
         }
-        // If there are too many, serve the newest.
+        // If there are too many products, serve only the newest.
         if (served.size() > most_products) {
             const auto newer = [](const auto& a, const auto& b) {
                 return a.first.start > b.first.start;
@@ -189,7 +189,7 @@ Result<std::vector<ThreddsFile>> Level3Collection::list(ThreddsSeries series,
     return files;
 }
 
-// Serves only names that the index of the directory has, so no name can lead elsewhere.
+// Serves only names that are in the index of the directory, so that no name can lead elsewhere.
 Answer Level3Collection::file(const Request& request, std::span<const std::string_view> path) {
     const auto product = path.size() == 4 ? product_of(path[3]) : std::nullopt;
     if (!product || product->variable != path[0] || product->station != path[1]) {

@@ -1,4 +1,4 @@
-// web/doors/thredds/nearest_time.h -- the file whose time is the nearest.
+// web/doors/thredds/nearest_time.h -- finds the file whose time is nearest to a given time.
 //
 // Threads   A pure function.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace stormcellar::web {
 
-// Returns the entry of a map by time that is nearest to `time`. Of two equally near entries,
-// returns the earlier one; of an empty map, the end. Takes one search and one step, because one
+// Returns the entry that is nearest to `time`, in a map by time. If two are equally near, returns
+// the earlier one. If the map is empty, returns its end. Takes one search and one step, because a
 // query may call this 10,000 times.
 template <class Times>
 [[nodiscard]] auto nearest_time(const Times& times, UtcTime time) {

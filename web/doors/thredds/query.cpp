@@ -27,8 +27,8 @@ std::vector<std::string> values_of(const Request& request, std::string_view name
     return values;
 }
 
-// Returns the parameter. An empty value counts as absent, since the IDV's forms send such
-// parameters.
+// Returns the parameter. An empty value counts as absent, because the IDV's forms send empty
+// values.
 std::optional<std::string_view> given(const Request& request, std::string_view name) {
     const auto value = request.parameter(name);
     return value && !value->empty() ? value : std::nullopt;
@@ -44,7 +44,7 @@ Result<double> degrees_of(std::string_view name, std::string_view text, double m
                 most, most);
 }
 
-// Reads all of the named parameters, or none of them.
+// Reads all of these parameters, or none of them.
 Result<std::vector<double>> read_degrees(const Request& request,
                                          const std::vector<std::string_view>& names) {
     std::vector<double> values;

@@ -1,8 +1,8 @@
 // web/doors/thredds/query.h -- a query of the THREDDS radar server: stations and times.
 //
 // Stations  stn=KTLX, repeated or with commas, or stn=all; or longitude and latitude, for the
-//           nearest station; or north, south, east and west.
-// Times     time, repeated: for each station the nearest file within an hour; or two of time_start,
+//           nearest station; or north, south, east and west, for a box.
+// Times     time, repeated: the nearest file of each station, within an hour; or two of time_start,
 //           time_end and time_duration; or temporal=all.
 // Variables var=N0Q, repeated or with commas.
 //
@@ -24,21 +24,22 @@ struct ThreddsQuery {
     struct Point {
         double latitude_deg = 0, longitude_deg = 0;
     };
-    // If `west` is east of `east`, the box crosses the 180th meridian.
+    // If `west` is greater than `east`, the box crosses the 180th meridian.
     struct Box {
         double north_deg = 0, south_deg = 0, east_deg = 0, west_deg = 0;
     };
-    // One of the following four fields is set.
+    // At most one of the following four fields is set.
     std::vector<std::string> stations;
     bool all_stations = false;
     std::optional<Point> near;
     std::optional<Box> box;
 
-    // Either `times`, or the range from `from` to `to`; with temporal=all the range has no ends.
+    // Either `times` is set, or the range from `from` to `to`. With temporal=all the range has no
+    // ends.
     std::vector<UtcTime> times;
     std::optional<UtcTime> from, to;
 
-    std::vector<std::string> variables;  // the part before a '/'
+    std::vector<std::string> variables;  // of each, the part before a '/'
 };
 
 inline constexpr std::size_t most_query_stations = 400, most_query_times = 100;

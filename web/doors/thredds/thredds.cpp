@@ -16,15 +16,16 @@ Answer xml_answer(const Request& request, std::string text) {
     return text_answer_to(request, "application/xml", std::move(text));
 }
 
-// Answers a query that failed. If the catalog cannot be read, the status is an error's, because the
-// client made no mistake.
+// Answers a query that failed. If the catalog cannot be read, the client made no mistake, so the
+// status is an error's.
 Answer query_error(const Error& error) {
     if (error.code == ErrorCode::bad_argument)
         return sentence(200, error.message).with("Cache-Control", "no-cache");
     return sentence(status_of(error), "The catalog cannot be read now.");
 }
 
-// Returns the cosine of the angle between two places, which decreases with their distance.
+// Returns the cosine of the angle between two places. It is smaller for places that are farther
+// apart.
 double closeness(const ThreddsQuery::Point& point, const ThreddsStation& station) {
     constexpr double radians = std::numbers::pi / 180;
     const double a = point.latitude_deg * radians, b = station.latitude_deg * radians;
@@ -32,8 +33,8 @@ double closeness(const ThreddsQuery::Point& point, const ThreddsStation& station
     return std::sin(a) * std::sin(b) + std::cos(a) * std::cos(b) * std::cos(apart);
 }
 
-// Returns the identifiers of the stations that a query selects. Stations that it names may be
-// unknown.
+// Returns the identifiers of the stations that a query selects. They may be unknown stations if the
+// query names them.
 Result<std::vector<std::string>> stations_meant(ThreddsCollection& collection,
                                                 const ThreddsQuery& query) {
     if (!query.stations.empty()) return query.stations;
@@ -73,7 +74,8 @@ ThreddsDoor::ThreddsDoor(const std::shared_ptr<RawFiles>& files, ThreddsOptions 
         collections_.push_back(make_collection(configured, options_.config.places, files));
 }
 
-// Finds the data set with the longest path, because one data set's path may begin with another's.
+// Finds the data set with the longest matching path, because the path of one may begin with the
+// path of another.
 ThreddsDoor::Found ThreddsDoor::find(std::vector<std::string_view> segments) const {
     Found found;
     std::size_t longest = 0;

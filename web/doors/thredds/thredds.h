@@ -6,10 +6,10 @@
 //   /thredds/radarServer/{ds}?stn=&time=...     its files (web/doors/thredds/query.h)
 //   /thredds/fileServer/{ds}/...                the bytes of a file
 //
-// A query that cannot be answered gets 200 and a sentence as text/plain, because THREDDS clients
-// recognize errors by that. All other answers have real status codes. Answers of radarServer close
-// the connection: Siphon opens one for each catalog and leaves closing to Python's garbage
-// collector.
+// A query that cannot be answered gets the status 200 and a sentence as text/plain, because THREDDS
+// clients recognize errors by that. All other answers have true status codes. Answers of
+// radarServer close the connection, because Siphon opens one for each catalog and leaves closing to
+// Python's garbage collector.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -25,7 +25,7 @@ namespace stormcellar::web {
 
 struct ThreddsOptions {
     ThreddsConfig config = WebConfig::usual_thredds();
-    std::size_t most_results = 10'000;  // for one query; for more, the answer is a sentence
+    std::size_t most_results = 10'000;  // of one query; beyond that, the answer is a sentence
 };
 
 class ThreddsDoor final : public Door {
@@ -35,7 +35,7 @@ class ThreddsDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // A data set, and the segments of the path behind the data set's own.
+    // A data set, and the segments of the path after the data set's own path.
     struct Found {
         std::shared_ptr<ThreddsCollection> collection;  // null: there is none
         std::vector<std::string_view> rest;

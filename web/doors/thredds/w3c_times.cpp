@@ -24,7 +24,7 @@ bool is_time_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Reads a text from its front, part by part.
+// Reads a text from its start, piece by piece.
 class TimeText {
   public:
     explicit TimeText(std::string_view text) : rest_(text) {}
@@ -35,7 +35,7 @@ class TimeText {
         rest_.remove_prefix(1);
         return true;
     }
-    // Reads exactly this many digits as a number from `least` to `most`.
+    // Reads exactly `digits` digits as a number from `least` to `most`.
     std::optional<int> number(std::size_t digits, int least, int most) {
         if (rest_.size() < digits) return std::nullopt;
         int value = 0;
@@ -56,7 +56,7 @@ class TimeText {
         rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
         return value;
     }
-    // Reads the digits behind a point as milliseconds; digits after the third are dropped.
+    // Reads the digits after a point as milliseconds. Drops digits after the third.
     std::optional<milliseconds> fraction() {
         int value = 0, digits = 0;
         for (; is_time_digit(next()); rest_.remove_prefix(1), ++digits)
@@ -72,7 +72,7 @@ class TimeText {
     std::string_view rest_;
 };
 
-// Reads "12", "12:30", "12:30:15" or "12:30:15.250".
+// Reads a time of day such as "12", "12:30", "12:30:15" or "12:30:15.250".
 std::optional<milliseconds> take_clock(TimeText& text) {
     const auto hour = text.number(2, 0, 24);
     if (!hour) return std::nullopt;
@@ -95,7 +95,8 @@ std::optional<milliseconds> take_clock(TimeText& text) {
     return clock <= days{1} ? std::optional{clock} : std::nullopt;
 }
 
-// Reads "Z", "+01:00", "-0500" or nothing. An unencoded '+' in a query has become a space.
+// Reads an offset: "Z", "+01:00", "-0500" or nothing. In a query, an unencoded '+' has become a
+// space.
 std::optional<minutes> take_offset(TimeText& text) {
     if (text.is_empty() || text.take('Z') || text.take('z')) return minutes{0};
     const bool is_west = text.take('-');
@@ -142,7 +143,7 @@ std::optional<UtcTime> time_of_w3c(TimeText text) {
     return std::chrono::sys_days{date} + clock - offset;
 }
 
-// A unit as in "14 days". It has a length, except that months and years count as months.
+// A unit, as in "14 days". Months and years are counted in months; every other unit has a length.
 struct TimeUnit {
     std::string_view name;
     milliseconds length;
@@ -192,7 +193,7 @@ std::optional<W3cDuration> duration_in_words(TimeText text) {
     return std::nullopt;
 }
 
-// Returns the unit of a letter in "P1Y2M3DT4H5M6S". M is a month before the T and a minute behind
+// Returns the unit of a letter in "P1Y2M3DT4H5M6S". M means months before the T, and minutes after
 // it.
 std::optional<TimeUnit> unit_of_letter(char letter, bool behind_t) {
     if (behind_t) {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::string_view page_name = "index.html";
 
-// Allows only content of this server: the page's program, its worker, and pictures that it makes.
+// Allows only content of this server: the program of the page, its worker, and pictures that the
+// program makes.
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
     "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "

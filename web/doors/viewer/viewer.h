@@ -3,10 +3,10 @@
 //   /view/            the page
 //   /view/viewer.js   its program, and other files
 //
-// The page sends requests to this server only; its Content-Security-Policy enforces this.
+// The page sends requests only to this server; its Content-Security-Policy enforces that.
 //
 // Threads   Many threads may use it.
-// Errors    404 for unknown files, and for all files if the program was built without the viewer.
+// Errors    404 for unknown files, and for every file if the program was built without the viewer.
 #pragma once
 
 #include "web/http/door.h"

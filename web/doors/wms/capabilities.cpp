@@ -38,7 +38,7 @@ std::vector<MomentOfDomain> moments_of(MapPictures& pictures, const std::string&
     return moments;
 }
 
-// The styles of each layer, computed once for all domains.
+// The styles of each layer, which are computed once for all domains.
 class LayerStyles {
   public:
     const std::vector<std::string>& of(const MapProduct& layer) {
@@ -51,8 +51,8 @@ class LayerStyles {
     std::vector<std::pair<MapProduct, std::vector<std::string>>> styles_;
 };
 
-// Writes the document in one of the two versions. Their elements have different names, and the
-// elements of 1.1.1 follow the order of its DTD.
+// Writes the document in one of two versions. Their elements have different names. In 1.1.1, they
+// must be in the order of its DTD.
 class CapabilitiesWriter {
   public:
     CapabilitiesWriter(WmsVersion version, std::string address)
@@ -72,7 +72,7 @@ class CapabilitiesWriter {
     void write(const std::string& domain, const MomentOfDomain& moment);
     void write(const std::string& domain, const MapProduct& layer, const MomentOfDomain& moment);
 
-    const bool is_older_;  // 1.1.1
+    const bool is_older_;  // true: version 1.1.1
     const std::string address_;
     XmlWriter xml_;
     LayerStyles styles_;
@@ -146,7 +146,7 @@ void CapabilitiesWriter::write_operation(std::string_view name,
 }
 
 void CapabilitiesWriter::write_box(const render::EarthBox& box) {
-    // In this standard, a box across the antimeridian must have all longitudes.
+    // In this standard, a box across the antimeridian must span all longitudes.
     const bool crosses = box.west_deg < -180 || box.east_deg > 180;
     const double west = crosses ? -180 : box.west_deg;
     const double east = crosses ? 180 : box.east_deg;
@@ -204,8 +204,8 @@ void CapabilitiesWriter::write_times(const MomentOfDomain& moment) {
     }
 }
 
-// Writes the styles. 1.1.1 requires the size of a legend, which is known only after drawing, so it
-// gets no legends.
+// Writes the styles. 1.1.1 requires the size of each legend, which is known only after drawing, so
+// in 1.1.1 styles have no legends.
 void CapabilitiesWriter::write_styles(const std::string& layer,
                                       const std::vector<std::string>& styles) {
     for (const std::string& style : styles) {

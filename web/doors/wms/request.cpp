@@ -54,7 +54,7 @@ WmsRead<int> whole_number(const WmsParameters& parameters, std::string_view name
     return number;
 }
 
-// Reads "0xFFFFFF", the standard's form of a color.
+// Reads a color such as "0xFFFFFF", which is the standard's form.
 WmsRead<render::Rgba8> color_of_text(std::string_view text) {
     std::uint32_t number = 0;
     const bool has_prefix = text.starts_with("0x") || text.starts_with("0X");
@@ -69,7 +69,7 @@ WmsRead<render::Rgba8> color_of_text(std::string_view text) {
     return render::Rgba8{byte(16), byte(8), byte(0), 255};
 }
 
-// Reads the background. JPEG has no transparency, so TRANSPARENT has no effect there, as the
+// Reads the background. For JPEG, which has no transparency, TRANSPARENT has no effect, as the
 // standard says.
 WmsRead<std::optional<render::Rgba8>> ground_of(const WmsParameters& parameters, bool is_jpeg) {
     const auto transparent = parameters.find("TRANSPARENT");
@@ -124,7 +124,7 @@ WmsRead<render::PlaneWindow> window_of_map(const WmsParameters& parameters, WmsV
     return render::PlaneWindow{system->plane, box[0], box[1], box[2], box[3], *width, *height};
 }
 
-// Returns the options that this layer uses, and its style as the option `colors`.
+// Returns the options that this layer uses, with its style as the option `colors`.
 Fields options_of_layer(const WmsParameters& parameters, const MapProduct& layer,
                         std::string_view style) {
     Fields options;

@@ -1,13 +1,13 @@
 // web/doors/wms/request.h -- reads a request to the Web Map Service (OGC 06-042, and the older
 // 1.1.1).
 //
-// Parameter names are compared without regard to case, and unknown ones are ignored, as the
-// standard says. A box in EPSG:4326 begins with latitudes in 1.3.0 and with longitudes in 1.1.1; a
-// box in CRS:84 begins with longitudes.
+// The case of parameter names does not matter, and unknown parameters are ignored, as the standard
+// says. A box in EPSG:4326 begins with latitudes in 1.3.0 and with longitudes in 1.1.1. A box in
+// CRS:84 begins with longitudes.
 //
 // Units     Those of the coordinate system: meters in EPSG:3857, degrees in EPSG:4326 and CRS:84.
 // Threads   Plain values and pure functions.
-// Errors    A WmsFault, whose code is one of the standard's or empty.
+// Errors    A WmsFault. Its code is one of the standard's, or empty.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace stormcellar::web {
 inline constexpr int most_wms_side = 4096;          // pixels
 inline constexpr std::size_t most_wms_layers = 16;  // in one picture
 inline constexpr std::array<std::string_view, 3> wms_systems{"EPSG:3857", "EPSG:4326", "CRS:84"};
-// Name of EPSG:3857 from before it had a number; older clients know no other.
+// The name that EPSG:3857 had before it had a number. Older clients know only this name.
 inline constexpr std::string_view older_web_mercator = "EPSG:900913";
 
 struct WmsFault {
@@ -54,9 +54,10 @@ class WmsParameters {
 };
 
 enum class WmsVersion { v1_1_1, v1_3_0 };
-// Returns the version that VERSION names, or 1.3.0 if there is none.
+// Returns the version that VERSION names, or 1.3.0 if VERSION is absent.
 [[nodiscard]] WmsRead<WmsVersion> wms_version(const WmsParameters& parameters);
-// Returns the version in which to describe the service: 1.1.1 if VERSION is below 1.3.0.
+// Returns the version in which to describe the service: 1.1.1 if VERSION is below 1.3.0, else
+// 1.3.0.
 [[nodiscard]] WmsVersion wms_nearest_version(const WmsParameters& parameters);
 
 // A layer of the service is a layer of a domain: "KTLX:composite.REF".
@@ -66,11 +67,12 @@ struct WmsLayer {
 };
 [[nodiscard]] std::string wms_layer_name(std::string_view domain, const MapProduct& layer);
 
-// Returns the styles of a layer, which are names of color tables. "default" is the first.
+// Returns the styles of a layer, which are the names of its color tables. "default" comes first.
 [[nodiscard]] std::vector<std::string> wms_styles_of(const MapProduct& layer);
 
-// Reads the lists of layers and styles. An empty style means the default one. The options of layers
-// (web/data/pictures/map_product.h) are parameters, too; each applies to the layers that use it.
+// Reads the lists of layers and styles. An empty style means the default style. The options of
+// layers (web/data/pictures/map_product.h) are parameters, too. Each applies to those layers that
+// use it.
 [[nodiscard]] WmsRead<std::vector<WmsLayer>> wms_layers(const WmsParameters& parameters,
                                                         std::string_view layers,
                                                         std::string_view styles);
@@ -81,12 +83,12 @@ struct WmsMap {
     std::optional<render::Rgba8> ground;  // none: transparent
     // The instant that TIME names; none: the newest grid.
     std::optional<UtcTime> time;
-    bool is_jpeg = false;  // else PNG
+    bool is_jpeg = false;  // false: PNG
 };
 [[nodiscard]] WmsRead<WmsMap> wms_map(const WmsParameters& parameters, UtcTime now);
 
-// A pixel of a picture. wms_pixel() reads the pixel that GetFeatureInfo asks about; place_of()
-// returns the place of a pixel's center.
+// A pixel of a picture. wms_pixel() reads the pixel that GetFeatureInfo asks about. place_of()
+// returns the place of the center of a pixel.
 struct WmsPixel {
     int column = 0, row = 0;
 };

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::chrono::hours farthest_nearest{1};
 
-// Answers with a fault. Clients of 1.1.1 recognize it by its own media type.
+// Answers with a fault. For clients of 1.1.1, it has a media type of its own, by which they
+// recognize it.
 Answer fault_answer(const Request& request, const WmsFault& fault) {
     const bool is_older = wms_nearest_version(WmsParameters(request.query)) == WmsVersion::v1_1_1;
     XmlWriter xml;
@@ -43,7 +44,7 @@ WmsFault fault_of(const Error& error) {
     return {"", without_paths(error.message) + ".", status_of(error)};
 }
 
-// The instant of a layer's grid, and the text of the header Warning. The text is empty if the
+// The instant of a layer's grid, and the text for the header Warning. The text is empty if the
 // request named exactly this instant.
 struct ShownTime {
     UtcTime time;
@@ -86,7 +87,7 @@ std::string word_of(grid::CellStatus status) {
     return word;
 }
 
-// The value of one layer at the requested place.
+// The value that one layer has at the requested place.
 struct LayerValue {
     std::string layer, title, unit;
     UtcTime time;
@@ -155,7 +156,7 @@ WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
         if ((*grid)->may_change()) timed.max_age.reset();
         timed.picture.layers.push_back({std::move(*grid), layer.style});
         if (!shown->warning.empty()) {
-            // A nearer grid may come later.
+            // A grid that is nearer may still come.
             timed.max_age.reset();
             timed.warnings.emplace_back("Warning", shown->warning);
         }

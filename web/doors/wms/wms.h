@@ -7,10 +7,11 @@
 //   /wms?REQUEST=GetFeatureInfo&...&QUERY_LAYERS=...&I=...&J=...
 //   /wms?REQUEST=GetLegendGraphic&LAYER=...
 //
-// /wms/DOMAIN answers these requests, too; its capabilities have only the layers of that domain.
+// /wms/DOMAIN answers these requests, too. Its capabilities have only the layers of that domain.
 //
-// TIME selects the nearest grid within an hour; without TIME, the newest grid is used. The header
-// Warning names the grid's instant unless TIME is exactly that, as the standard requires.
+// TIME selects the nearest grid within an hour. Without TIME, the newest grid is used. As the
+// standard requires, the header Warning names the instant of the grid unless TIME is exactly this
+// instant.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -36,7 +37,7 @@ class WmsDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // A picture, and the headers Warning for instants that were not exactly requested.
+    // A picture, and the headers Warning for instants that differ from the requested one.
     struct TimedPicture {
         MapPicture picture;
         Fields warnings;

@@ -61,7 +61,7 @@ std::string chunk_tag(const OpenGrid& grid, std::string_view array,
     return fmt::format("\"{}-{}-{}.{}.{}\"", grid.id, array, place[1], place[2], place[3]);
 }
 
-// Returns numbers of an axis from `first` on, padded with NaN beyond its end.
+// Returns the numbers of an axis from `first` on. Beyond the end of the axis they are NaN.
 std::string axis_chunk(const std::vector<double>& numbers, std::size_t first, std::size_t length) {
     std::vector<double> chunk(length, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < length && first + i < numbers.size(); ++i)
@@ -117,8 +117,8 @@ std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_vie
     return Named{std::string(path[1]), *moment};
 }
 
-// Describes the group from the newest grid. This takes microseconds, so each request does it, and
-// new grids need no notification.
+// Describes the group from the newest grid. Each request does this, because it takes only
+// microseconds. So nobody need tell the door about new grids.
 Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     const auto present = sources_.grids->times(named.domain, named.moment);
     if (present.empty())
@@ -166,8 +166,8 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     return place;
 }
 
-// Returns true if the grid has the same cells as the newest grid. Also returns false if the newest
-// grid is not open, because opening that grid would take long.
+// Returns true if the grid has the same cells as the newest grid. Returns false if the newest grid
+// is not open, because opening it would take long.
 bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) const {
     const auto time = sources_.grids->newest(named.domain, named.moment);
     if (!time) return false;

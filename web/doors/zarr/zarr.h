@@ -1,12 +1,12 @@
-// web/doors/zarr/zarr.h -- grids over time as Zarr arrays (docs/web/zarr.md).
+// web/doors/zarr/zarr.h -- serves grids over time as Zarr arrays (docs/web/zarr.md).
 //
 //   /zarr                      the groups, as JSON
 //   /zarr/DOMAIN/MOMENT/...    a group in version 2 of the format, with consolidated metadata
 //   /zarr3/DOMAIN/MOMENT/...   a group in version 3
 //
-// Chunks are made on request and kept. A chunk of an evicted grid gets 404, the protocol's answer
-// for a missing chunk; readers then use the fill value, which means "unavailable" in the array of
-// states.
+// Chunks are made on request and kept. A chunk of an evicted grid gets 404, which is the protocol's
+// answer for a missing chunk. Readers then use the fill value; in the array of states, it means
+// "unavailable".
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -26,7 +26,7 @@ namespace stormcellar::web {
 
 enum class ZarrVersion { two = 2, three = 3 };
 
-// Sources that the doors of both versions share.
+// The sources that the doors of both versions share.
 struct ZarrSources {
     std::shared_ptr<Grids> grids;
     std::shared_ptr<KeptAnswers> kept;
@@ -55,7 +55,7 @@ class ZarrDoor final : public Door {
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
     [[nodiscard]] Answer cells(const Request& request, const Named& named, const Opened& opened,
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
-    // Returns the indexes of a chunk; none if the key is not a chunk's.
+    // Returns the indices of a chunk, or none if the key is not a chunk's.
     [[nodiscard]] std::optional<std::vector<std::size_t>> place_in(
         const std::vector<std::string_view>& rest, std::size_t dimensions) const;
 
