@@ -43,7 +43,7 @@ constexpr std::array formats{
     Format{".webm", make_video<VideoContainer::webm>()},
 };
 
-// Prefixes an error with the name of the output unless it begins with that name.
+// Puts the name of the output before the error's message, unless the message begins with it.
 Error named(const std::string& output, Error error) {
     if (!error.message.starts_with(output)) {
         error.message = fmt::format("{}: {}", output, error.message);
@@ -51,7 +51,7 @@ Error named(const std::string& output, Error error) {
     return error;
 }
 
-// Writes one file: collects the encoder's bytes and writes them when they are complete.
+// Writes one file. Writes the encoder's bytes when they are complete.
 class FileWriter final : public AnimationWriter {
   public:
     FileWriter(std::string output, std::unique_ptr<FrameEncoder> encoder, FileSystem& file_system)
@@ -125,8 +125,8 @@ Status check(const AnimationOptions& options) {
     return {};
 }
 
-// Checks that the file can be created, by creating a temporary file beside it and removing that
-// file.
+// Checks that the file can be created. For that, creates a temporary file beside it and removes it
+// again.
 Status probe(const std::string& output, FileSystem& file_system) {
     std::error_code ignored;
     if (std::filesystem::is_directory(output, ignored)) {

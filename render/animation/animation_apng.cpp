@@ -1,5 +1,5 @@
-// An APNG file is a PNG file whose further frames are private chunks. stormcellar/render/png_file.h
-// encodes each frame as a picture, and the code here takes that picture apart again.
+// An APNG file is a PNG file with further frames in private chunks. stormcellar/render/png_file.h
+// encodes each frame as a picture of its own, and the code here takes that picture apart again.
 //
 // Source: W3C PNG specification, third edition, sections 5.6 and 11.3.6 (acTL, fcTL, fdAT).
 #include <algorithm>
@@ -49,7 +49,7 @@ class Writer {
     Bytes bytes_;
 };
 
-// Returns the part of a picture inside a rectangle.
+// Returns the part of a picture that is inside a rectangle.
 Image cut(const Image& frame, const Rectangle& part) {
     Image image(part.width, part.height, {});
     for (int y = 0; y < part.height; ++y) {
@@ -71,7 +71,8 @@ bool opaque(const Image& image) {
     return true;
 }
 
-// Makes the pixels that did not change transparent, because these compress to almost nothing.
+// Makes the pixels that did not change transparent, because equal pixels compress to almost
+// nothing.
 void clear_unchanged(Image& part, const Image& before) {
     for (std::size_t i = 0; i < part.rgba.size(); i += 4) {
         const auto pixel = std::span(part.rgba).subspan(i, 4);
@@ -84,7 +85,7 @@ void clear_unchanged(Image& part, const Image& before) {
 struct Frame {
     Rectangle part;
     std::uint8_t blend = blend_source;
-    Bytes data;  // the content of IDAT or fdAT
+    Bytes data;  // content of the chunk IDAT or fdAT
 };
 
 class ApngEncoder final : public FrameEncoder {
@@ -105,7 +106,7 @@ class ApngEncoder final : public FrameEncoder {
                 frame.blend = blend_over;
             }
         }
-        // All frames share one header, so no frame may leave out its alpha.
+        // All frames share one header, so even an opaque frame must keep its alpha.
         const auto png = encode_png(picture, frames_.empty() ? options_.metadata : no_metadata_,
                                     PngAlpha::always);
         if (!png) return pass_on(png);
@@ -120,7 +121,7 @@ class ApngEncoder final : public FrameEncoder {
         file.append(head_);
         Writer control;
         control.u32(static_cast<std::uint32_t>(frames_.size()));
-        control.u32(0);  // number of plays; 0 is without end
+        control.u32(0);  // number of plays; 0: without end
         file.chunk("acTL", control.take());
         file.append(before_data_);
         std::uint32_t sequence = 0;
@@ -141,7 +142,7 @@ class ApngEncoder final : public FrameEncoder {
 
   private:
     // Returns the image data of a PNG file in one piece. For the first frame, also keeps the other
-    // chunks: signature and header, which come before acTL, and all other chunks before the data.
+    // chunks: signature and header, which come before acTL, and what else comes before the data.
     Bytes take_apart(std::span<const std::byte> png) {
         constexpr std::size_t signature_size = 8;
         Bytes data;

@@ -1,6 +1,6 @@
-// Writes GIF loops with giflib, because FFmpeg's writer has no comments and would add a palette to
-// each frame. Netscape's application block holds the loop count. The palette is known only after
-// the last frame, so frames are kept deflated until then.
+// Writes GIF loops with giflib. FFmpeg's writer has no comments, and would add a palette to each
+// frame. Netscape's application block holds the loop count. The palette is known only after the
+// last frame, so frames are kept in memory, deflated, until then.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_colors = 255;  // one entry is left for "unchanged"
 constexpr double gif_ticks_per_second = 100;
-// Viewers treat a shorter delay as not set, and show the frame slowly.
+// Viewers ignore a shorter delay, and then show the frame slowly.
 constexpr std::int64_t shortest_ticks = 2;
 
 using Bytes = std::vector<std::byte>;
@@ -45,8 +45,7 @@ Status inflate_into(const std::vector<std::uint8_t>& packed, std::vector<std::ui
     return {};
 }
 
-// Writes into memory with giflib. After the first failure later calls do nothing, and the failure
-// is kept.
+// Writes a GIF into memory with giflib. Keeps the first failure; later calls then do nothing.
 class GifFile {
   public:
     GifFile() {
@@ -113,7 +112,7 @@ class GifEncoder final : public FrameEncoder {
 
     Result<Bytes> finish() override {
         PaletteMap map(histogram_.palette(most_colors));
-        // The entry after the colors stands for "unchanged".
+        // The entry after the colors means "unchanged".
         const int as_before = static_cast<int>(map.palette().size());
         GifFile file;
         write_head(file, map.palette());
@@ -130,7 +129,7 @@ class GifEncoder final : public FrameEncoder {
 
   private:
     void write_head(GifFile& file, const std::vector<Rgb8>& palette) const {
-        // The size of a table is a power of two, and there must be room for "unchanged".
+        // The size of a table is a power of two. It must have room for the entry "unchanged".
         const int bits = std::max(2, static_cast<int>(std::bit_width(palette.size())));
         const std::unique_ptr<ColorMapObject, FreeColorMap> table(
             GifMakeMapObject(1 << bits, nullptr));
@@ -147,7 +146,8 @@ class GifEncoder final : public FrameEncoder {
         }
     }
 
-    // Writes the rectangle that changed, without the unchanged pixels in it.
+    // Writes the rectangle that changed. Pixels in it that did not change are written as
+    // "unchanged".
     void write_frame(GifFile& file, std::size_t index, const std::vector<std::uint8_t>& before,
                      const std::vector<std::uint8_t>& indices, int as_before) const {
         const bool first = before.empty();

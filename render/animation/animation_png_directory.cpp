@@ -1,4 +1,5 @@
-// Writes a directory of PNG files: first a temporary directory beside it, which is then renamed.
+// Writes a directory of PNG files. First makes a temporary directory beside it, and then renames
+// that.
 #include <atomic>
 #include <optional>
 
@@ -25,7 +26,7 @@ bool is_frame_name(std::string_view name) {
     return name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// A directory with a unique name, which is removed with all its files unless it is kept.
+// A directory with a unique name. It is removed with all its files unless keep() is called.
 class TemporaryTree {
   public:
     explicit TemporaryTree(const fs::path& beside) {
@@ -63,7 +64,7 @@ class TemporaryTree {
 
 enum class Target { absent, replaceable };
 
-// Finds out whether the name is free, or belongs to a directory that holds nothing but frames.
+// Finds out whether the name is free. If it is a directory, finds out whether it holds only frames.
 Result<Target> look_at(const fs::path& directory) {
     std::error_code error;
     const auto status = fs::symlink_status(directory, error);
@@ -134,8 +135,8 @@ class PngDirectoryWriter final : public AnimationWriter {
         return tl::unexpected(*error_);
     }
 
-    // Moves the old directory aside first, and moves it back if the new directory cannot take its
-    // place.
+    // Moves the old directory aside, and the new one into its place. If the second step fails,
+    // moves the old directory back.
     Status place() {
         const auto target = look_at(directory_);
         if (!target) return pass_on(target);

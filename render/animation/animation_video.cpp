@@ -1,4 +1,4 @@
-// Writes MP4 and WebM with FFmpeg's libavcodec and libavformat. This is the module for videos.
+// The module for videos, which writes MP4 and WebM with FFmpeg's libavcodec and libavformat.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// The number of threads is fixed, because encoders divide their work among the threads, which
-// changes the result.
+// The number of threads is fixed, because encoders divide their work among threads, and another
+// number of threads would change the result.
 constexpr int encoder_threads = 2;
 
 struct Codec {
@@ -23,8 +23,8 @@ struct Codec {
     std::array<std::pair<const char*, const char*>, 6> settings;  // unused entries are null
 };
 
-// The codecs in order of preference. The rates are high, because lossy video halves the resolution
-// of colors.
+// The codecs, in order of preference. Their bit rates are high, because lossy video halves the
+// resolution of colors.
 constexpr std::array codecs{
     Codec{VideoContainer::mp4,
           "libx264",
@@ -44,7 +44,7 @@ constexpr std::array codecs{
           {{{"b", "4M"}, {"crf", "8"}, {"deadline", "good"}, {"cpu-used", "2"}}}},
 };
 
-// Returns the first codec for this container that this FFmpeg has; null if there is none.
+// Returns the first codec for this container that this FFmpeg has, or null if it has none.
 const Codec* choose_codec(VideoContainer container) {
     const auto chosen = std::ranges::find_if(codecs, [container](const Codec& codec) {
         return codec.container == container && avcodec_find_encoder_by_name(codec.name) != nullptr;
@@ -69,7 +69,7 @@ class VideoEncoder final : public FrameEncoder {
         return encode_last();
     }
 
-    // Video has no dwell for the last picture, so repeat that picture instead.
+    // Video cannot show the last picture longer (dwell), so repeat that picture instead.
     Result<std::vector<std::byte>> finish() override {
         const auto repeats =
             static_cast<int>(std::lround(options_.last_frame_dwell_s * options_.frames_per_second));
@@ -115,13 +115,13 @@ class VideoEncoder final : public FrameEncoder {
         encoder.time_base = av_inv_q(encoder.framerate);
         encoder.thread_count = encoder_threads;
         encoder.flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
-        // A loop is short, so one key picture in ten seconds, or in twelve pictures if they last
-        // longer, is enough for seeking.
+        // A loop is short. For seeking, one key picture in ten seconds is enough, or one in twelve
+        // pictures if these last longer.
         encoder.gop_size = std::max(12, static_cast<int>(10 * options_.frames_per_second));
     }
 
-    // Converts RGB of the full range to BT.709 of the limited range, with the same bits on every
-    // machine.
+    // Starts the conversion of RGB with the full range to BT.709 with the limited range. The result
+    // has the same bits on every machine.
     Status start_conversion() {
         const int even_width = encoder_->width, even_height = encoder_->height;
         even_ = Image(even_width, even_height, {});
@@ -139,7 +139,7 @@ class VideoEncoder final : public FrameEncoder {
         return {};
     }
 
-    // Converts into a new frame, because the encoder may still be reading the last one.
+    // Converts into a new frame each time, because the encoder may still be reading the last one.
     Status convert(const Image& image) {
         fill_even(image);
         Handle<AVFrame> frame(av_frame_alloc());
@@ -164,7 +164,7 @@ class VideoEncoder final : public FrameEncoder {
         return {};
     }
 
-    // Fills a picture with an odd size by repeating its last column or row.
+    // If a side of the picture is odd, makes it even by repeating the last column or row.
     void fill_even(const Image& image) {
         const auto pixel_bytes = [](int count) { return static_cast<std::size_t>(count) * 4; };
         for (int y = 0; y < even_.height; ++y) {
@@ -183,7 +183,7 @@ class VideoEncoder final : public FrameEncoder {
         return send(last_.get());
     }
 
-    // Gives the encoder a frame, or null at the end, and takes the packets that it has ready.
+    // Gives the encoder a frame, or null at the end. Takes the packets that the encoder has ready.
     Status send(const AVFrame* frame) {
         if (const int sent = avcodec_send_frame(encoder_.get(), frame); sent < 0) {
             return failure("video encoder", sent);

@@ -1,6 +1,6 @@
-// Writes WebP loops with libwebp's animation encoder. The loops are lossless, because colors are
-// data and lossy WebP would halve their resolution. Method 1 and effort 50 give most of the
-// compression for little time.
+// Writes WebP loops with libwebp's animation encoder. They are lossless, because colors are data,
+// and lossy WebP would halve the resolution of colors. Method 1 and effort 50 give most of the
+// possible compression in little time.
 #include <climits>
 #include <cmath>
 
@@ -71,7 +71,8 @@ class WebpEncoder final : public FrameEncoder {
             return webp_version_mismatch();
         }
         options.anim_params.loop_count = 0;  // without end
-        // Only seeking needs key frames. Without them, a frame stores only its changed part.
+        // Key frames are needed only for seeking. Without them, a frame stores only the part that
+        // changed.
         options.kmax = INT_MAX;
         options.kmin = INT_MAX - 1;
         config_.lossless = 1;

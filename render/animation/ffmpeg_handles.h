@@ -28,8 +28,8 @@ struct Deleter {
 template <class T>
 using Handle = std::unique_ptr<T, Deleter>;
 
-// Options of a codec or a container, by name and value. FFmpeg removes each option that it
-// understands.
+// Options of a codec or a container, by name and value. FFmpeg removes each option that it knows,
+// so unknown options remain.
 class Options {
   public:
     Options() = default;
@@ -45,7 +45,8 @@ class Options {
     AVDictionary* dictionary_ = nullptr;
 };
 
-// Returns "what: reason", with FFmpeg's own words for its error number.
+// Returns an error with the text "what: reason". The reason is FFmpeg's own text for its error
+// number.
 [[nodiscard]] inline tl::unexpected<Error> failure(const char* what, int number) {
     std::array<char, AV_ERROR_MAX_STRING_SIZE> reason{};
     av_strerror(number, reason.data(), reason.size());

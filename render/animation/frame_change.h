@@ -14,7 +14,7 @@ struct Rectangle {
     bool operator==(const Rectangle&) const = default;
 };
 
-// Returns the smallest rectangle that holds every pixel that differs. If none differs, returns the
+// Returns the smallest rectangle that holds all pixels that differ. If none differs, returns the
 // pixel at the top left, because no format has an empty frame. Both spans hold width * height *
 // pixel_bytes bytes.
 [[nodiscard]] Rectangle changed_rectangle(std::span<const std::uint8_t> before,

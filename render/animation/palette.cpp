@@ -10,10 +10,11 @@ namespace {
 constexpr std::size_t most_exact = 256;
 constexpr int refinement_rounds = 2;
 
-// The eye distinguishes green better than red, and red better than blue.
+// Weights of red, green and blue. The eye distinguishes green better than red, and red better than
+// blue.
 constexpr std::array<double, 3> channel_weight = {2, 4, 3};
 
-// a color, with channels scaled so that distances are weighted
+// A color. Its channels are scaled by their weights.
 using Point = std::array<double, 3>;
 
 // An item to be grouped: the color of a cell of the histogram, and the number of its pixels.
@@ -57,7 +58,7 @@ double distance_squared(const Point& a, const Point& b) {
     return sum;
 }
 
-// Sums over a range of samples, which give the mean and the spread.
+// Sums over a range of samples, from which the mean and the spread follow.
 struct Moments {
     double count = 0;
     Point sum{};
@@ -70,7 +71,7 @@ struct Moments {
             squares += sample.count * sample.point[c] * sample.point[c];
         }
     }
-    // Returns |sum|^2 / count, the part of the squares that a single mean explains.
+    // Returns |sum|^2 / count, the part of the sum of squares that a single mean explains.
     [[nodiscard]] double explained() const {
         if (count <= 0) return 0;
         return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / count;
@@ -94,17 +95,18 @@ struct Box {
 struct Split {
     double gain = 0;
     std::size_t channel = 0;
-    std::size_t position = 0;  // samples before this position go to one side
+    std::size_t position = 0;  // number of samples that go to the first side
 };
 
 void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
     std::ranges::sort(samples, [channel](const Sample& a, const Sample& b) {
         if (a.point[channel] != b.point[channel]) return a.point[channel] < b.point[channel];
-        return packed(a.color) < packed(b.color);  // a unique order, whatever the order before
+        // An order that does not depend on the order before.
+        return packed(a.color) < packed(b.color);
     });
 }
 
-// Returns the cut across one channel that reduces the spread most.
+// Returns the cut, across one channel, that reduces the spread most.
 Split best_split(const Box& box) {
     Split best;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -123,7 +125,7 @@ Split best_split(const Box& box) {
     return best;
 }
 
-// Splits the box with the greatest spread repeatedly, and returns the means.
+// Splits the box that has the greatest spread, again and again, and returns the means of the boxes.
 std::vector<Point> split_into(std::vector<Sample>& samples, std::size_t size) {
     std::vector<Box> boxes{{samples, moments_of(samples)}};
     while (boxes.size() < size) {
@@ -157,8 +159,8 @@ std::size_t nearest_point(const std::vector<Point>& points, const Point& point) 
     return best;
 }
 
-// Returns the mean of each group, or the exact color that makes up half of the group, if there is
-// one.
+// Returns a color for each group: the exact color that makes up half of the group, if there is one,
+// or else the mean of the group.
 std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> points) {
     std::vector<Moments> groups;
     std::vector<const Sample*> largest;
@@ -186,7 +188,7 @@ std::vector<Rgb8> refine(const std::vector<Sample>& samples, std::vector<Point> 
     return palette;
 }
 
-// Visits runs of equal pixels. A drawn picture has many long runs.
+// Calls `visit` for each run of equal pixels. A drawn picture has many long runs.
 template <class Visit>
 void for_each_run(const Image& frame, Visit visit) {
     const auto& rgba = frame.rgba;
@@ -247,7 +249,7 @@ std::vector<Rgb8> ColorHistogram::palette(std::size_t size) const {
         if (cell.count == 0) continue;
         Sample sample;
         sample.count = static_cast<double>(cell.count);
-        // A leader this far ahead has at least half of the pixels.
+        // A leader that is this far ahead has at least half of the pixels.
         sample.exact = cell.lead * 2 >= cell.count;
         sample.color = cell.leader;
         if (!sample.exact) {

@@ -1,5 +1,5 @@
-// Loads the module for videos, stormcellar_video.so, when the first video is written. It stays
-// loaded, because FFmpeg is not made to be unloaded.
+// Loads the module for videos, stormcellar_video.so, when the first video is written. The module
+// stays loaded, because FFmpeg is not made to be unloaded.
 #include "base/load_module.h"
 #include "render/animation/animation_format.h"
 

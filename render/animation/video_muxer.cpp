@@ -12,7 +12,7 @@ namespace {
 using ffmpeg::failure;
 using ffmpeg::Handle;
 
-// A file in memory, for a library that seeks while it writes.
+// A file in memory, for a library that must seek while it writes.
 class MemoryFile {
   public:
     static constexpr std::size_t limit = std::size_t{1} << 31;
@@ -39,7 +39,7 @@ class MemoryFile {
     }
 
   private:
-    // FFmpeg's type: std::uint8_t up to version 6, const std::uint8_t since 7.
+    // `Byte` is FFmpeg's type: std::uint8_t up to version 6, const std::uint8_t since version 7.
     template <class Byte>
     static int write(void* self, Byte* data, int size) {
         auto& file = *static_cast<MemoryFile*>(self);
@@ -99,9 +99,9 @@ Status write_packets(AVFormatContext& format, const AVCodecContext& encoder,
     return {};
 }
 
-// Returns an upper bound of the size of the index of an MP4 file: at most 40 bytes for each picture
-// in its tables (ISO 14496-12, 8.6 and 8.7), plus room for metadata and the configuration of the
-// decoder.
+// Returns an upper bound for the size of the index of an MP4 file. Its tables take at most 40 bytes
+// for each picture (ISO 14496-12, 8.6 and 8.7). In addition, there is room for metadata and for the
+// configuration of the decoder.
 std::size_t index_size(const AVCodecContext& encoder, std::size_t packets,
                        const AnimationOptions& options) {
     return 8192 + 64 * packets + 4 * text_of(options.metadata).size() +

@@ -10,9 +10,9 @@
 
 namespace stormcellar::render {
 
-// Puts packets, with times in the time base of the encoder, into a container in memory. An MP4 file
-// has its index at the front, so that a browser can begin before it has the whole file. The file
-// holds no date and no library name, so the same packets give the same bytes.
+// Puts packets into a container in memory. Their times are in the time base of the encoder. An MP4
+// file has its index at the front, so that a browser can begin before it has the whole file. The
+// file holds no date and no library name, so the same packets give the same bytes.
 [[nodiscard]] Result<std::vector<std::byte>> mux_video(
     VideoContainer container, const AVCodecContext& encoder,
     const std::vector<ffmpeg::Handle<AVPacket>>& packets, const AnimationOptions& options);

@@ -15,8 +15,8 @@ namespace {
 
 using level2::Moment;
 
-// Open classes begin here, below every value that a radar sends. The limit is no lower, because a
-// volume sorts the values from here on into 256 bins.
+// Classes without a lower bound begin here, below every value that a radar sends. The limit is not
+// lower still, because a volume sorts the values from here on into 256 bins.
 constexpr float least_velocity = -64;
 constexpr float least_zdr = -13;
 constexpr float least_height = -10;
@@ -94,7 +94,8 @@ constexpr ColorClass cfp_classes[] = {
 };
 
 // The colors go from dark blue to light yellow, because every kind of color vision distinguishes
-// light from dark and blue from yellow. The steps are about equal along a path through Lab.
+// light from dark and blue from yellow. The steps between them are about equal along a path through
+// Lab.
 constexpr ColorClass height_classes[] = {
     {least_height, 0x003482},
     {0.5, 0x144D94},
@@ -124,7 +125,7 @@ constexpr ColorClass safe_reflectivity_classes[] = {
     {55, 0xCFB851}, {60, 0xEDD04C}, {65, 0xFFE487}, {70, 0xFFF0C7}, {75, 0xFEFAF3},
 };
 
-// Blue toward the radar, orange away from it, gray at rest; faster is lighter.
+// Blue is toward the radar, orange is away from it, and gray is at rest. Faster echo is lighter.
 constexpr ColorClass safe_velocity_classes[] = {
     {least_velocity, 0xC4EFFF},
     {-33, 0x8FD7FE},
@@ -153,13 +154,13 @@ constexpr ColorClass safe_rho_classes[] = {
     {0.97F, 0xFFE0A5}, {0.98F, 0xFFEFCB}, {0.99F, 0xFFFBEB},
 };
 
-// A table of classes without blending. Only a table with a moment is drawn as a volume.
+// A table of classes without blending. A table without a moment is never drawn as a volume.
 struct SteppedTable {
     std::string_view name;
     std::optional<Moment> moment;
     std::string_view unit;  // if there is no moment
     std::span<const ColorClass> classes;
-    float end;  // upper end of the last class in a color bar
+    float end;  // where the last class ends in a color bar
     std::optional<float> bar_begin = std::nullopt;
 };
 constexpr std::array stepped_tables{
@@ -197,7 +198,7 @@ ColorTable table_of_classes(const SteppedTable& stepped) {
     return table;
 }
 
-// Returns the table of a name, which must exist. Tests look up each name that this file and the
+// Returns the table with this name. It must exist: tests look up each name that this file and the
 // rows of moments use.
 const ColorTable& table_named(std::string_view name) {
     return *std::ranges::find(built_in_tables(), name, &ColorTable::name);

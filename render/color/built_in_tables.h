@@ -3,7 +3,7 @@
 //   nws-reflectivity    dBZ     15 classes of 5 dB from 5 dBZ, the last one open above
 //   nws-velocity        m/s     by speed in both directions: green toward the radar, red away from
 //                       it, bounds 5, 10, 13.5, 18.5, 25.5, 33 m/s for 10, 20, 26, 36, 50, 64
-//                       knots; grays below 5 m/s, from -64 m/s, open above
+//                       knots; gray below 5 m/s; begins at -64 m/s, open above
 //   nws-spectrum-width  m/s     bounds 2, 4, 6, 8, 10 m/s for 4, 8, 12, 16, 20 knots
 //   nws-zdr, nws-rho    dB, 1   the 16 levels of the dual-polarization products
 //   nws-echo-top        km      classes of 1.5 km for 5,000 feet
@@ -16,15 +16,15 @@
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/moment_look.h)
-// All tables draw range folded in usual_range_folded. The table of a moment has its
-// default_extinction(), except smooth-clear-air, which is denser. The tables of other products are
-// never drawn as volumes.
+// All tables draw range folded in the color usual_range_folded. The opacity of a moment's table is
+// default_extinction(), but smooth-clear-air is denser. Tables of other products are never drawn as
+// volumes.
 //
-// In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000) for normal
-// vision and for protanopia, deuteranopia and tritanopia as simulated by Machado, Oliveira,
-// Fernandes (2009). Lightness rises from class to class; in safe-velocity it rises with the speed
-// in both directions, and the two sides differ by at least least_safe_sides.
-// tests/render/safe_tables_test.cpp enforces both.
+// In a safe table, neighboring classes differ by at least least_safe_step (CIEDE2000), for normal
+// vision and for protanopia, deuteranopia and tritanopia as Machado, Oliveira and Fernandes (2009)
+// simulate them. Lightness rises from class to class. In safe-velocity it rises with the speed in
+// both directions, and the two sides differ by at least least_safe_sides.
+// tests/render/safe_tables_test.cpp enforces this.
 //
 // Source    The levels of the WSR-88D's products (interface control document 2620003, color
 //           tables).
@@ -44,15 +44,15 @@ namespace stormcellar::render {
 
 inline constexpr double least_safe_step = 6;
 inline constexpr double least_safe_sides = 15;
-// The color of range folded air in all built-in tables, and in color files that do not give one.
+// The color of range folded air in all built-in tables, and in color files that do not name one.
 inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 
 // Returns the tables in the order above.
 [[nodiscard]] const std::vector<ColorTable>& built_in_tables();
-// Returns a table by its name. Errors: not_found; the message gives the nearest name or lists all
-// tables.
+// Returns a table by its name. Errors: not_found; the message gives the nearest name, or else lists
+// all tables.
 [[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
-// Return the default tables of a moment, with classes and without.
+// Return the default table of a moment with classes, and the one without.
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
 // Returns the moment whose tables a moment has: VEL for VELD and SRV, AZSH for DIVG.
@@ -63,10 +63,10 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 [[nodiscard]] const ColorTable& height_colors();
 [[nodiscard]] const ColorTable& vil_density_colors();
 
-// A family has one table for each moment: in "smooth" the default table without classes, in "nws"
-// the default table with classes.
+// The families. A family has one table for each moment: "smooth" has the default table without
+// classes, and "nws" the default table with classes.
 inline constexpr std::array<std::string_view, 2> color_families{"smooth", "nws"};
-// Returns the table of a moment in a family; null if `family` is no family.
+// Returns the table of a moment in a family, or null if there is no such family.
 [[nodiscard]] const ColorTable* table_of_family(std::string_view family, level2::Moment moment);
 
 }  // namespace stormcellar::render

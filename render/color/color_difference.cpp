@@ -16,7 +16,7 @@ double linear_channel(int stored) {
     return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-// Returns the cube root of CIE Lab, which is straight near black.
+// Returns the cube root that CIE Lab uses. Near black it is a straight line.
 double lab_root(double share) {
     constexpr double bend = 216.0 / 24389;
     return share > bend ? std::cbrt(share) : (24389.0 / 27 * share + 16) / 116;
@@ -30,7 +30,8 @@ double seventh_power_share(double chroma) {
     return std::sqrt(power / (power + of_25));
 }
 
-// A color as chroma and hue in the plane of the formula, in which near-grays are stretched along a.
+// A color as chroma and hue. The plane is that of the formula, in which colors near gray are
+// stretched along a.
 struct Polar {
     double chroma = 0;
     double hue_deg = 0;  // 0..360; 0 for gray
@@ -49,7 +50,7 @@ struct Hues {
     double mean_deg = 0;
 };
 
-// Returns the difference of two hues, the shorter way round, and their middle.
+// Returns the difference of two hues by the shorter way around, and the middle between them.
 Hues hues_of(const Polar& one, const Polar& other) {
     constexpr double half_turn = 180 + 1e-9;
     const double sum = one.hue_deg + other.hue_deg;
@@ -60,7 +61,7 @@ Hues hues_of(const Polar& one, const Polar& other) {
             sum < 360 ? (sum + 360) / 2 : (sum - 360) / 2};
 }
 
-// Returns the weight of a difference in hue at a mean hue (T of the formula).
+// Returns the weight of a difference in hue, T in the formula, for a mean hue.
 double hue_weight(double mean_deg) {
     return 1 - 0.17 * std::cos((mean_deg - 30) * degree) + 0.24 * std::cos(2 * mean_deg * degree) +
            0.32 * std::cos((3 * mean_deg + 6) * degree) -
@@ -80,7 +81,7 @@ double linear_of(std::uint8_t channel) {
 }
 
 Lab lab_of_linear(double red, double green, double blue) {
-    // The rows of the matrix of the primaries; their sums are the white.
+    // The rows of the matrix of the primaries. The sums of the rows are the white.
     const double x = (0.4124 * red + 0.3576 * green + 0.1805 * blue) / (0.4124 + 0.3576 + 0.1805);
     const double y = (0.2126 * red + 0.7152 * green + 0.0722 * blue) / (0.2126 + 0.7152 + 0.0722);
     const double z = (0.0193 * red + 0.1192 * green + 0.9505 * blue) / (0.0193 + 0.1192 + 0.9505);
@@ -110,7 +111,7 @@ double ciede2000(const Lab& one, const Lab& other) {
                        std::sin(hues.difference_deg / 2 * degree) /
                        (1 + 0.015 * mean_chroma * hue_weight(hues.mean_deg));
 
-    // In the blues, chroma and hue depend on each other.
+    // For blues, chroma and hue depend on each other.
     const double from_blue = (hues.mean_deg - 275) / 25;
     const double turn = 60 * std::exp(-from_blue * from_blue) * degree;
     const double rotation = -2 * seventh_power_share(mean_chroma) * std::sin(turn);
@@ -131,8 +132,9 @@ Result<ImageDifference> image_difference(const Image& one, const Image& other) {
     }
     ImageDifference summary;
     summary.pixels = one.rgba.size() / 4;
-    std::vector<double> differences;                  // of unequal pixels; all others are 0
-    std::unordered_map<std::uint64_t, double> known;  // pictures repeat few pairs of colors
+    // Differences of the pixels that differ; for all others it is 0.
+    std::vector<double> differences;
+    std::unordered_map<std::uint64_t, double> known;  // most pictures repeat a few pairs of colors
     for (std::size_t i = 0; i < one.rgba.size(); i += 4) {
         const Rgba8 p = {one.rgba[i], one.rgba[i + 1], one.rgba[i + 2], 255};
         const Rgba8 q = {other.rgba[i], other.rgba[i + 1], other.rgba[i + 2], 255};
@@ -153,7 +155,7 @@ Result<ImageDifference> image_difference(const Image& one, const Image& other) {
         sum += difference;
     summary.mean = sum / static_cast<double>(summary.pixels);
     summary.max = differences.back();
-    // The number of pixels that may be above the percentile.
+    // Number of pixels that may be above the percentile.
     const std::size_t above = summary.pixels / 100;
     if (above < differences.size()) {
         summary.percentile_99 = differences[differences.size() - 1 - above];

@@ -1,14 +1,14 @@
-// render/color/color_difference.h -- how different two colors look (CIEDE2000).
+// render/color/color_difference.h -- computes how different two colors look (CIEDE2000).
 //
 // Alpha is ignored.
 //
-// Units     Lab of CIE 1976 for the white D65. A difference of 1 can just be seen side by side; 100
-//           is black against white.
+// Units     Lab of CIE 1976 for the white D65. A difference of 1 can just be seen if the colors are
+//           side by side; black and white differ by 100.
 // Source    Sharma, Wu, Dalal (2005), The CIEDE2000 color-difference formula, Color Research and
-//           Application 30, 21-30; sRGB by IEC 61966-2-1, whose white is taken as the sum of its
+//           Application 30, 21-30; sRGB by IEC 61966-2-1. Its white is taken as the sum of its
 //           primaries, so that grays have a = b = 0. The weights kL, kC and kH are 1. The formula
-//           jumps where two hues are opposite; hues within 1e-9 degrees of opposite count as
-//           opposite, so that the order of the colors never matters.
+//           jumps where two hues are opposite. Hues within 1e-9 degrees of opposite count as
+//           opposite, so that the order of the two colors never matters.
 // Accuracy  5e-5, half the last digit of the 34 published pairs.
 // Threads   Pure functions.
 #pragma once
@@ -28,15 +28,15 @@ struct Lab {
 };
 
 [[nodiscard]] Lab lab_of(const Rgba8& color);
-// Converts linear sRGB, 0..1.
+// Converts linear sRGB (0..1) to Lab.
 [[nodiscard]] Lab lab_of_linear(double red, double green, double blue);
-// Converts 0..255 as stored to 0..1 in proportion to light.
+// Converts a stored channel (0..255) to a number in proportion to light (0..1).
 [[nodiscard]] double linear_of(std::uint8_t channel);
 
 [[nodiscard]] double ciede2000(const Lab& one, const Lab& other);
 [[nodiscard]] double color_difference(const Rgba8& one, const Rgba8& other);
 
-// Figures over all pixels of two pictures.
+// Figures about the difference of two pictures, over all pixels.
 struct ImageDifference {
     double mean = 0;
     double percentile_99 = 0;  // the smallest difference that 99 % of the pixels do not exceed

@@ -1,9 +1,9 @@
-// render/color/color_file.h -- reads a user's own color tables: TOML and GRLevelX .pal files.
+// render/color/color_file.h -- reads color tables of users: TOML files and .pal files of GRLevelX.
 //
 // TOML (docs/rendering.md has an example):
 //   name, unit, moment = "REF"   All optional. The moment sets the unit and the opacity.
-//   stepped = true|false         Classes, or, by default, colors that blend to the color of the
-//                                next point.
+//   stepped = true|false         true: classes; false, the default: colors that blend to the color
+//                               of the next point.
 //   end                          Where the color bar ends.
 //   range_folded                 Color of range folded cells.
 //   [[point]]                    At least 2 (1 if stepped), with rising values:
@@ -12,8 +12,8 @@
 //                                color.
 //     opacity_per_km             For volumes: the optical depth, in all points or in none. If none
 //                                has it, extinction_of_colors() gives the opacity.
-// .pal: one "Key: values" in a line, keys in any case; ';' begins a comment, as '#' does at the
-// beginning of a line.
+// .pal: each line has one "Key: values", in upper or lower case. ';' begins a comment, and so does
+// '#' at the beginning of a line.
 //   Product: BR BV SRV SW ZDR CC PHI ET VIL ...   Tells the moment; other products are accepted.
 //   Units:   Without a Scale, KT KTS MPH KMH KFT FT M % are converted to our units.
 //   Scale: s, Offset: o   value in the file = s * value in our unit + o
@@ -49,19 +49,19 @@ inline constexpr std::uint64_t most_color_file_bytes = std::uint64_t{1} << 20U;
 // The largest absolute value of a number in a file.
 inline constexpr double greatest_color_value = 1e6;
 
-// Parses a .pal file. `name` stands for the file in messages.
+// Parses a .pal file. `name` names the file in messages.
 [[nodiscard]] Result<ColorTable> parse_pal(std::string_view text, const std::string& name);
 [[nodiscard]] Result<ColorTable> parse_toml_colors(std::string_view text, const std::string& name);
-// Reads a .pal or .toml file; the ending selects the format, in any case. Errors: bad_argument for
-// another ending.
+// Reads a .pal or .toml file. The ending, in upper or lower case, tells the format. Errors:
+// bad_argument for another ending.
 [[nodiscard]] Result<ColorTable> read_color_file(const std::filesystem::path& file);
-// Returns a built-in table by its name, or reads a file if the text ends in .pal or .toml. Errors:
-// bad_argument for an unknown name.
+// Returns a built-in table by its name. If the text ends in .pal or .toml, reads that file instead.
+// Errors: bad_argument for an unknown name.
 [[nodiscard]] Result<ColorTable> colors_from(const std::string& name_or_file);
 
 // Returns the extinction for a table whose stops are set. A table for a moment gets
-// default_extinction(), any other table a rise from 0.02 to 0.5 per km. The alpha of the table's
-// colors multiplies both.
+// default_extinction(). Any other table gets an extinction that rises from 0.02 to 0.5 per km. In
+// both cases, the alpha of the table's colors multiplies the extinction.
 [[nodiscard]] std::vector<ExtinctionPoint> extinction_of_colors(const ColorTable& table,
                                                                 bool of_moment);
 

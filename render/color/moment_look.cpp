@@ -39,7 +39,7 @@ OkLab lab_of_anchor(const Anchor& anchor) {
     return ok_lab_of({channel(16), channel(8), channel(0)});
 }
 
-// Returns the color at a share of the way between two anchors.
+// Returns the color between two anchors, at a share of the way from the first to the second.
 Rgba8 color_between(const Anchor& from, const Anchor& to, float share) {
     const OkLab a = lab_of_anchor(from), b = lab_of_anchor(to);
     const LinearRgb linear = linear_of(
@@ -57,7 +57,7 @@ constexpr Anchor reflectivity_anchors[] = {
     {70, 0xEBCBFF, 1},    {75, 0xFFFFFF, 1},
 };
 
-// Colors for insects, birds and dust, which smooth-reflectivity leaves out.
+// Colors for insects, birds and dust, which smooth-reflectivity does not show.
 constexpr Anchor clear_air_anchors[] = {
     {-30, 0x343C48, 0.1F}, {-15, 0x4A6B80, 0.5F}, {-5, 0x4A93A3, 0.8F}, {5, 0x62BFA0, 1},
     {15, 0x9CC868, 1},     {25, 0xE6CC40, 1},     {37, 0xFFF6D0, 1},    {50, 0xFFFFFF, 1},
@@ -134,7 +134,7 @@ struct SmoothTable {
     std::string_view name;
     Moment moment;
     std::span<const Anchor> anchors;
-    float end;  // of the color bar
+    float end;  // where the color bar ends
     std::optional<float> bar_begin = std::nullopt;
 };
 constexpr std::array smooth_tables{
@@ -150,8 +150,8 @@ constexpr std::array smooth_tables{
     SmoothTable{"smooth-clear-air", Moment::ref, clear_air_anchors, 55},
 };
 
-// Makes the table. Tables blend in sRGB, so the way from anchor to anchor in OKLab is cut into
-// short pieces.
+// Makes a table that is even in OKLab. Tables blend in sRGB, so the way from anchor to anchor in
+// OKLab is cut into short pieces.
 ColorTable blended_table(const SmoothTable& smooth) {
     const std::span<const Anchor> anchors = smooth.anchors;
     ColorTable table;
@@ -178,7 +178,7 @@ ColorTable blended_table(const SmoothTable& smooth) {
     return table;
 }
 
-// The opacity of reflectivity between these points is exponential in the value.
+// Between these points, the opacity of reflectivity is exponential in the value.
 constexpr ExtinctionPoint reflectivity_points[] = {
     {5, 0.0015}, {10, 0.003}, {15, 0.005}, {20, 0.012}, {25, 0.025}, {30, 0.042}, {35, 0.055},
     {40, 0.09},  {45, 0.25},  {50, 1.1},   {55, 2.5},   {60, 4},     {75, 6},
@@ -272,7 +272,7 @@ std::vector<ColorTable> make_smooth_tables() {
     std::vector<ColorTable> tables;
     for (const SmoothTable& smooth : smooth_tables)
         tables.push_back(blended_table(smooth));
-    // Clear air is weak, so a volume shows it denser than other reflectivity.
+    // Echo of clear air is weak, so volumes show it denser than other reflectivity.
     tables.back().extinction = {{-30, 0.004}, {-15, 0.01}, {-5, 0.025},
                                 {5, 0.07},    {15, 0.2},   {35, 1}};
     return tables;

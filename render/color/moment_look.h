@@ -1,5 +1,5 @@
-// render/color/moment_look.h -- how pictures show each moment: its title, its default tables, its
-// opacity, and the built-in tables without classes.
+// render/color/moment_look.h -- the look of each moment in pictures: its title, its default tables,
+// its opacity, and the built-in tables without classes.
 //
 //   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho,
 //   smooth-phi, smooth-cfp
@@ -8,10 +8,10 @@
 //   smooth-quality      violet where the echo is no weather, green where it is
 //   smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and dust
 // Colors change evenly from anchor to anchor in OKLab. The hues of smooth-reflectivity are familiar
-// to forecasters. They change within 1 dB of 20, 35, 50 and 65 dBZ, so that these bounds can be
-// read off; inside a hue only lightness and strength change. On maps weak echo is translucent.
-// Velocity is teal toward the radar and red away from it, lighter with speed. The other tables,
-// except the circle of phases, become lighter with the value.
+// to forecasters. Each hue changes to the next within 1 dB of 20, 35, 50 and 65 dBZ, so that these
+// bounds can be read off; within a hue only lightness and strength change. On maps, weak echo is
+// translucent. Velocity is teal toward the radar and red away from it, and lighter with speed. The
+// other tables become lighter with the value, except the circle of phases.
 //
 // For every kind of color vision the colors of two values differ by least_smooth_step or more
 // (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 0.005/s of
@@ -33,7 +33,7 @@ namespace stormcellar::render {
 
 inline constexpr double least_smooth_step = 6;
 
-// The texts and the default colors of a picture for a moment. They extend
+// The texts and the default colors that a picture has for a moment. These extend
 // stormcellar/level2/moment.h.
 struct MomentLook {
     level2::Moment moment = level2::Moment::ref;
@@ -42,15 +42,15 @@ struct MomentLook {
     std::string_view classes = {};
     std::string_view smooth = {};
     std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;  // default_extinction()
-    bool is_never_negative = false;  // values below a table that begins at 0 do not exist
-    // True if a coarse map shows the largest of several values, false if it shows their mean. A
-    // moment that wraps has a rule of its own (web/data/pictures/flat_map.cpp).
+    bool is_never_negative = false;  // there are no values below a table that begins at 0
+    // If a coarse map combines several values: true: it shows the largest, false: it shows the
+    // mean. Moments that wrap have a rule of their own (web/data/pictures/flat_map.cpp).
     bool shows_largest = false;
 };
 [[nodiscard]] const MomentLook& look_of(level2::Moment moment);
 
-// Returns the unit of a moment's values as tables name it: "dBZ", "m/s", "dB", "degree"; empty for
-// RHO.
+// Returns the unit of a moment's values, as tables name it: "dBZ", "m/s", "dB", "degree". Returns
+// an empty text for RHO.
 [[nodiscard]] std::string unit_of(level2::Moment moment);
 
 // Returns how opaque a moment's values are in a volume, per km of the drawn scene.

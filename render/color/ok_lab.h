@@ -1,4 +1,4 @@
-// render/color/ok_lab.h -- OKLab, the color space in which colors are mixed and lit.
+// render/color/ok_lab.h -- OKLab, the color space in which colors are mixed and lighted.
 //
 // Equal steps in OKLab look about equally large. If only the lightness changes, the hue stays.
 //
@@ -27,8 +27,7 @@ struct OkLab {
             0.0259040371F * l + 0.7827717662F * m - 0.8086757660F * s};
 }
 
-// Converts OKLab to linear sRGB. The result has numbers outside 0..1 if sRGB does not contain the
-// color.
+// Converts OKLab to linear sRGB. If sRGB does not contain the color, some numbers are outside 0..1.
 [[nodiscard]] inline LinearRgb linear_of(const OkLab& color) {
     const float l = color.l + 0.3963377774F * color.a + 0.2158037573F * color.b;
     const float m = color.l - 0.1055613458F * color.a - 0.0638541728F * color.b;

@@ -54,7 +54,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-// Returns the word in a form that is safe in a message.
+// Returns the word in a form that can safely be shown in a message.
 std::string shown(std::string_view word) {
     return printable(word.substr(0, longest_word));
 }
@@ -210,8 +210,8 @@ class PalReader {
         table.unit = unit_of(moment);
     }
 
-    // Sets moment and unit of the table, and returns how many of the file's units make one of our
-    // units.
+    // Sets the moment and the unit of the table. Returns how many of the file's units make one of
+    // ours.
     double settle_meaning(ColorTable& table) {
         const std::string product = upper(product_);
         if (const auto moment = level2::moment_from_name(product)) {
@@ -244,8 +244,8 @@ class PalReader {
         return per_ours;
     }
 
-    // Sorts the entries by rising value, in whichever direction the file goes. Entries with equal
-    // values stay in order.
+    // Sorts the entries by rising value, whether they rise or fall in the file. Entries with equal
+    // values keep their order.
     void settle_order() {
         if (entries_.front().value > entries_.back().value) {
             std::reverse(entries_.begin(), entries_.end());

@@ -1,7 +1,7 @@
-// render/color/pal_words.h -- the meaning of the names of products and units in .pal files.
+// render/color/pal_words.h -- the names of products and units in .pal files, and their meaning.
 //
-// The viewer has a copy of these tables, which tests/repository/viewer_facts_test.cpp writes and
-// compares.
+// The viewer has a copy of these tables. tests/repository/viewer_facts_test.cpp compares the copy
+// with them, and can write it.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace stormcellar::render {
 
-// The moment of a product, or the unit of a product that is not a moment. Readers also accept the
-// names of moments.
+// A product with its moment, or with its unit if it is not a moment. Readers also accept the names
+// of moments.
 struct PalProduct {
     std::string_view word = {};
     std::optional<level2::Moment> moment = std::nullopt;

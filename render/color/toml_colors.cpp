@@ -54,7 +54,7 @@ std::optional<Rgba8> read_color(TomlTable& table, std::string_view key) {
     return color;
 }
 
-// Reads moment and unit. Returns true if the table is for a moment.
+// Reads the moment and the unit. Returns true if the table is for a moment.
 bool read_meaning(TomlTable& root, ColorTable& table) {
     table.name = root.text("name").value_or("");
     const auto unit = root.text("unit");
@@ -74,8 +74,8 @@ bool read_meaning(TomlTable& root, ColorTable& table) {
     return true;
 }
 
-// Returns the newer spelling unless only the older one is present. If both are, the older one is an
-// unknown key.
+// Returns the newer spelling of the key, or the older one if only that is present. If both are
+// present, the older one so counts as an unknown key.
 std::string_view color_key_of(const TomlTable& point) {
     return point.has("colour") && !point.has("color") ? "colour" : "color";
 }

@@ -1,5 +1,5 @@
-// render/frame/fitted_scene.h -- gives a scene the view that suits its grids
-// (render/view/fitted_camera.h), for the picture inside its labels.
+// render/frame/fitted_scene.h -- fits the view of a scene to its grids
+// (render/view/fitted_camera.h). The view fills the part of the picture that the labels leave.
 //
 // Threads   Pure functions.
 #pragma once
@@ -10,9 +10,9 @@
 
 namespace stormcellar::render {
 
-// Fits the view of a volume; for other products the scene does not change. `outline` has the echo
-// of all grids that will be seen; `view` and `facts` belong to one of these grids. Errors: those of
-// layout_of() and check_frame().
+// Fits the view of a volume. Does not change the scene of another product. `outline` has the echo
+// of all grids that will be shown; `view` and `facts` are those of one of these grids. Errors:
+// those of layout_of() and check_frame().
 [[nodiscard]] Result<FittedView> fit_scene(const EchoOutline& outline, const grid::BrickView& view,
                                            const FrameFacts& facts, const FitParts& parts,
                                            Scene& scene, bool orbits = false);

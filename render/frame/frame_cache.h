@@ -1,7 +1,7 @@
 // render/frame/frame_cache.h -- keeps the map, the tables and the memory that the frames of a loop
 // share.
 //
-// The pixels are the same with and without the cache.
+// Pictures have the same pixels with and without the cache.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -26,8 +26,8 @@ Status check_panels(std::span<const Panel> panels) {
     return {};
 }
 
-// Returns the facts of the first panel for the labels of the whole picture, with the moments of all
-// panels as the product.
+// Returns the facts for the labels of the whole picture. They are the facts of the first panel, but
+// the product names the moments of all panels.
 DrawnFacts facts_of_whole(std::span<const Panel> panels,
                           const std::vector<ColumnSummary>& columns) {
     const Panel& first = panels.front();
@@ -47,7 +47,7 @@ DrawnFacts facts_of_whole(std::span<const Panel> panels,
     return facts;
 }
 
-// Returns the summaries of a grid's columns, and nothing for a sweep, which has no columns.
+// Returns the summaries of a grid's columns. For a sweep, which has no columns, returns nothing.
 std::vector<ColumnSummary> columns_of(const grid::BrickView& view, int threads) {
     return view.sweep != nullptr ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
 }
@@ -59,7 +59,7 @@ Result<Image> render_panels(std::span<const Panel> panels, int threads, FrameCac
     const Scene& scene = panels.front().scene;
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
-    // Legends point at the colors of these scenes.
+    // Keep these scenes until the end, because legends point at their colors.
     std::vector<Scene> shown;
     for (const Panel& panel : panels)
         shown.push_back(scene_shown(panel.view, panel.scene));

@@ -1,5 +1,5 @@
-// render/frame/picture_layout.h -- lays out the picture of the grid within the whole picture and
-// its labels.
+// render/frame/picture_layout.h -- lays out the whole picture: the picture of the grid, and the
+// labels around it.
 //
 // Threads   Pure functions.
 #pragma once
@@ -13,8 +13,7 @@
 namespace stormcellar::render {
 
 // Returns the layout. Without labels, the picture of the grid is the whole picture. `coverage` only
-// fills in a line of text and moves nothing. Errors: those of lay_out_labels() and of
-// Fonts::load().
+// gives a line of text, and moves nothing. Errors: those of lay_out_labels() and of Fonts::load().
 [[nodiscard]] Result<LabelLayout> layout_of(const grid::BrickView& view, const FrameFacts& facts,
                                             const Scene& scene,
                                             const std::optional<Coverage>& coverage = {});

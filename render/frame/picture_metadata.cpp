@@ -14,7 +14,8 @@
 namespace stormcellar::render {
 namespace {
 
-// Replaces characters that are not printable ASCII, because names of files may hold any character.
+// Replaces characters that are not printable ASCII, because names of files may contain any
+// character.
 std::string ascii_text(std::string_view text) {
     std::string safe = printable(text);
     std::replace_if(

@@ -1,4 +1,4 @@
-// render/frame/picture_metadata.h -- the metadata that a file of a picture or a loop contains.
+// render/frame/picture_metadata.h -- the metadata in the file of a picture or a loop.
 //
 // The metadata are keywords and texts in printable ASCII. They are equal for the same picture on
 // every machine.
@@ -32,17 +32,17 @@ namespace stormcellar::render {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// Facts that the grid does not contain.
+// Facts about the picture that the grid does not have.
 struct PictureFacts {
     std::string domain;
     UtcTime first, last;
     std::optional<std::size_t> frames;  // none: a still
     std::string between;                // how frames between grids were made; empty: there are none
-    std::string error;                  // of the picture, by its plan; empty: not planned
+    std::string error;                  // error of the picture by its plan; empty: not planned
 };
 
-// Returns the metadata. `scene` is the scene that was drawn; `grid` describes the method of all
-// frames.
+// Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid, whose
+// method stands for all frames.
 [[nodiscard]] Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
                                    const Scene& scene);
 

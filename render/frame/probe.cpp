@@ -28,7 +28,7 @@ void note_heights(const grid::BrickView& view, int ix, int iy, Probe& probe) {
     }
 }
 
-// Returns the height of the lowest cell that holds the largest value of the column.
+// Returns the height of the lowest cell that has the column's largest value.
 std::optional<double> height_of_maximum(const grid::BrickView& view, int ix, int iy) {
     ColumnCells cells;
     read_column(view, ix, iy, cells);
@@ -58,7 +58,7 @@ Result<Probe> probe_column(const grid::BrickView& view, const FrameFacts& facts,
                            std::size_t column, grid::GeoPoint place, int threads) {
     if (view.sweep != nullptr) return probe_sweep(*view.sweep, scene, place);
     Scene map = scene;
-    // For a volume, read the maximum of the column over the ground under the pixel.
+    // For a volume, read the column's maximum over the ground under the pixel.
     if (view_of(scene.product) == View::volume) map.product = Product::composite;
     const auto field = map_field(view, facts, map, summarize_columns(view, threads), threads);
     if (!field) return pass_on(field);
@@ -155,7 +155,7 @@ Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts, 
         return fail(ErrorCode::bad_argument, "{},{} is not a latitude and a longitude",
                     place.latitude_deg, place.longitude_deg);
     }
-    // West is negative, as everywhere else.
+    // Give longitudes in the west as negative numbers, as everywhere else.
     if (place.longitude_deg > 180) place.longitude_deg -= 360;
     const auto at = grid::GridProjection(spec).to_column(place);
     const double ix = std::floor(at.x + 0.5);
@@ -175,7 +175,7 @@ std::string probe_text(const Probe& probe, const Units& units) {
         return state;
     }
     const ShownUnit unit = shown_unit(probe.unit, units);
-    // A converted value gets no more digits than it had before.
+    // Give a converted value no more digits than the stored value has.
     const int digits = unit.symbol == probe.unit ? 6 : 4;
     return (probe.at_least ? "at least " : "") + value_text(probe.value, unit, digits);
 }

@@ -1,10 +1,10 @@
 // render/frame/probe.h -- reads the data at one place of a picture.
 //
-// In a map, the probe reads the value or the state of the column whose cell is drawn there. In a
-// volume, it reads the column maximum over the ground at the pixel, not the echo along the ray. In
-// a section, it reads the value or the state at the pixel, and in a ppi the gate. The probe also
-// gives the lowest and the highest seen height of the column (in a section, of the nearest column),
-// or, for a ppi, where and when the gate was measured.
+// In a map, the probe reads the value or the state of the column whose cell is drawn at the place.
+// In a volume, it reads the column maximum over the ground at the pixel, and not the echo along the
+// ray. In a section, it reads the value or the state at the pixel, and in a ppi the gate. The probe
+// also gives the lowest and the highest height at which the column was seen (in a section, the
+// nearest column). For a ppi it gives instead where and when the gate was measured.
 //
 // Threads   Pure functions.
 #pragma once
@@ -27,7 +27,7 @@ struct Probe {
     float value = 0;        // if the status is value
     bool at_least = false;  // the true value may be larger
     std::string unit;       // of the value as it is stored: "m/s", "km"
-    // height of the value: of a maximum, a CAPPI, a point of a section, or the beam at a gate
+    // Height of the value: of a maximum, a CAPPI, a point of a section, or the beam at a gate.
     std::optional<double> height_m;
     std::optional<double> distance_m;                     // along a section
     std::optional<double> lowest_seen_m, highest_seen_m;  // none if the column was not seen
@@ -38,12 +38,12 @@ struct Probe {
 // outside the picture, the grid or the section, or in the sky; those of render_frame().
 [[nodiscard]] Result<Probe> probe_pixel(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, int x, int y, int threads);
-// Reads a place in a map or a volume. Errors: bad_argument for a section, and for places outside
+// Reads a place in a map or a volume. Errors: bad_argument for a section, and for a place outside
 // the grid; those of render_frame().
 [[nodiscard]] Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, grid::GeoPoint place, int threads);
 
-// Returns "52.5 dBZ", "at least 12 km" or "no echo", with the value in `units`.
+// Returns a text such as "52.5 dBZ", "at least 12 km" or "no echo". The value is in `units`.
 [[nodiscard]] std::string probe_text(const Probe& probe, const Units& units);
 
 }  // namespace stormcellar::render

@@ -10,10 +10,13 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double whole_circle = 0.985;  // share of the azimuths; a few radials are often missing
-constexpr double least_cut = 0.01;      // share of the range of the sweep
+// Share of azimuths that counts as all; often a few radials are missing.
+constexpr double whole_circle = 0.985;
+// Share of the sweep's range that must be cut off to be mentioned.
+constexpr double least_cut = 0.01;
 
-// Returns true if a part of the circle that the sweep reaches is beyond the picture or the plane.
+// Returns true if some part of the circle within the sweep's range is outside the picture or the
+// plane.
 bool is_cut(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
             const ViewGeometry& geometry) {
     const GroundPoint site =

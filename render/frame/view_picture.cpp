@@ -19,9 +19,9 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double largest_inset = 4;  // times the map that shows the whole grid
+constexpr double largest_inset = 4;  // compared with the map of the whole grid
 
-// Paints the ground of a view from outside, or a map.
+// Paints the ground of a view from outside, or paints a map.
 Result<Image> paint_base(const DrawnView& drawn, const ViewGeometry& geometry,
                          const GroundLook& look, int threads) {
     const grid::GridSpec& spec = *drawn.view.spec;
@@ -76,7 +76,7 @@ Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size
                         scene.units, fonts, threads);
 }
 
-// Returns the line from A to B in pixels, at least two points, all of them finite.
+// Returns the line from A to B in pixels. It has at least two points, and all are finite.
 std::vector<Point> line_in_picture(const grid::GridSpec& spec, const SectionLine& line,
                                    const ViewGeometry& geometry) {
     const grid::SiteFrame start(line.from.latitude_deg, line.from.longitude_deg);
@@ -104,7 +104,7 @@ void draw_section_line(Canvas& canvas, const Fonts& fonts, std::vector<Point> li
     canvas.line(line, 1.5 * size.scale, shades.text, false);
     const double letter = 11 * size.scale;
     const double room = 2 * size.scale;
-    // Puts the letters beyond the ends of the line, inside the map.
+    // Writes the letters beyond the ends of the line, but inside the map.
     const auto put = [&](const char* name, Point end, Point next) {
         const double length = std::max(1e-9, std::hypot(end.x - next.x, end.y - next.y));
         const double width = fonts.width(name, letter, true);
@@ -172,8 +172,8 @@ Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size
     Scene scene = drawn.scene;
     scene.product = Product::composite;
     scene.camera.zoom = 1;
-    // A short line would be lost in the map of the whole grid, so draw the map larger and show the
-    // part about the line.
+    // A short line would be lost in the map of the whole grid. So draw a larger map, and show the
+    // part of it around the line.
     const auto whole = picture_geometry(spec, scene, size.width, size.height);
     const auto in_whole = line_in_picture(spec, *scene.section, whole);
     const double across =

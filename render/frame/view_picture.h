@@ -1,8 +1,8 @@
-// render/frame/view_picture.h -- the picture of one grid, with its map and marks but without the
-// labels around it.
+// render/frame/view_picture.h -- draws the picture of one grid with its map and its marks, but
+// without the labels around it.
 //
-// Threads   Pure but for the cache, which may be used by one call at a time; each function uses
-//           `threads` threads of its own.
+// Threads   Pure, except for the cache: one call at a time may use it. Each function uses `threads`
+//           threads of its own.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@
 
 namespace stormcellar::render {
 
-// The input of a picture: a grid, its facts, the scene, and the summary of its columns.
+// The input of a picture: a grid, its facts, the scene, and the summaries of the columns.
 struct DrawnView {
     const grid::BrickView& view;
     const FrameFacts& facts;
@@ -33,12 +33,13 @@ struct PictureSize {
     double scale = 1;
 };
 
-// Draws a volume, a map or a section of a scene that check_frame() accepts. `fonts` is null for a
-// picture without labels, which has neither map nor marks. Errors: those of render_frame().
+// Draws a volume, a map or a section. check_frame() must accept the scene. `fonts` is null for a
+// picture without labels, which has neither a map nor marks. Errors: those of render_frame().
 [[nodiscard]] Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size,
                                       const Fonts* fonts, int threads, FrameCache& cache);
 
-// Draws the small map beside a section: the composite of the grid, and the line from A to B.
+// Draws the small map beside a section. It shows the composite of the grid and the line from A to
+// B.
 [[nodiscard]] Result<Image> draw_section_inset(const DrawnView& drawn, const PictureSize& size,
                                                const Fonts& fonts, int threads, FrameCache& cache);
 

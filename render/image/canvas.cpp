@@ -18,8 +18,8 @@ constexpr std::array<const char*, 4> font_directories = {
     "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
     "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF"};
 
-// Cairo may keep a face in its caches after we release it, so Cairo also frees the font of the
-// face.
+// The face of a font, with its bytes. Cairo frees both, because it may keep the face in its caches
+// after we release it.
 struct FreeTypeFace {
     FT_Library library = nullptr;
     FT_Face face = nullptr;
@@ -78,7 +78,7 @@ void use_color(cairo_t* context, Rgba8 color) {
 }
 
 // Converts Cairo's pixels (32-bit numbers 0xAARRGGBB) to the pixels of an image (bytes R G B A), or
-// back, by swapping red and blue. The result is opaque. The compiler vectorizes the loop.
+// back, by swapping red and blue. The result is opaque. The compiler vectorizes this loop.
 static_assert(std::endian::native == std::endian::little);
 void swap_red_and_blue(const unsigned char* from, unsigned char* to, std::size_t pixels) {
     for (std::size_t i = 0; i < pixels; ++i) {

@@ -1,9 +1,9 @@
 // render/image/canvas.h -- draws lines, areas and text on an Image, with Cairo.
 //
-// The font is DejaVu Sans, regular and bold. The program reads its files, so that a picture is the
-// same on every machine.
+// The font is DejaVu Sans, regular and bold. The program reads the font's files itself, so that a
+// picture is the same on every machine.
 //
-// Threads   A Canvas, and a Fonts, may be used by one thread at a time.
+// Threads   One thread at a time may use a Canvas, and one a Fonts.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
 
-// These names are Cairo's, so that its headers stay out of ours.
+// These names are Cairo's. Declaring them here keeps Cairo's headers out of ours.
 // NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_surface;
@@ -37,12 +37,12 @@ struct Point {
 
 class Fonts {
   public:
-    // Loads the fonts. Errors: not_found if the usual directories do not hold the font's files; the
+    // Loads the fonts. Errors: not_found if none of the usual directories has the font's files; the
     // message names the package.
     static Result<Fonts> load();
 
-    // Returns how far text of this size (pixels) moves the pen. The text is ASCII or Latin-1, in
-    // UTF-8.
+    // Returns how far a text of this size (in pixels) moves the pen. The text must be ASCII or
+    // Latin-1, in UTF-8.
     [[nodiscard]] double width(std::string_view text, double size, bool bold) const;
     [[nodiscard]] _cairo_font_face* face(bool bold) const {
         return bold ? bold_.get() : regular_.get();
@@ -63,15 +63,17 @@ class Canvas {
     void fill(const Rect& rect, Rgba8 color);
     void fill(const std::vector<Point>& polygon, Rgba8 color);
     void line(const std::vector<Point>& points, double line_width, Rgba8 color, bool closed);
-    // Draws many lines as one, so that a translucent color does not add up where they cross.
+    // Adds lines to the path. They are then drawn as one, so that a translucent color does not add
+    // up where they cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
     void draw_path(double line_width, Rgba8 color);  // draws the path and begins a new one
-    // Restrict drawing to a polygon, or to the common part of two, until the next clip or unclip().
+    // Restrict drawing to a polygon, or to the part that two polygons share. This holds until the
+    // next clip or unclip().
     void clip(const std::vector<Point>& polygon);
     void clip_both(const std::vector<Point>& one, const std::vector<Point>& other);
     void unclip();
-    // Draws a text that starts at the left end of its baseline. If the halo color has an alpha
-    // above 0, the letters get an outline, so that they are readable on anything.
+    // Draws a text. Its baseline begins at `left_baseline`. If the halo color has an alpha above 0,
+    // letters get an outline, so that they are readable on anything.
     void text(const Fonts& fonts, std::string_view text, Point left_baseline, double size,
               bool bold, Rgba8 color, Rgba8 halo = {0, 0, 0, 0});
 

@@ -1,4 +1,4 @@
-// render/image/check_size.h -- checks a picture before a format takes it.
+// render/image/check_size.h -- checks a picture before it is encoded in a format.
 //
 // Threads   Pure.
 #pragma once
@@ -10,8 +10,9 @@
 
 namespace stormcellar::render {
 
-// Checks that there is a pixel, that the bytes fit the size, and that no side exceeds the limit.
-// `what` is "picture" or "frame" in the error, which is bad_argument.
+// Checks that there is at least one pixel, that the bytes fit the size, and that no side exceeds
+// the limit. Errors: bad_argument; the message calls the image `what`, which is "picture" or
+// "frame".
 [[nodiscard]] Status check_size(const Image& image, int largest_side, std::string_view what);
 
 }  // namespace stormcellar::render

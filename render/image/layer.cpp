@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Composites the four channels of one pixel; alpha becomes 255.
+// Composites the four channels of one pixel. The alpha of the result is 255.
 HWY_INLINE void composite_pixel(const float* from, std::uint8_t* to) {
     for (int c = 0; c < 4; ++c) {
         const float level = from[c] * 255.0F + (1 - from[3]) * static_cast<float>(to[c]);

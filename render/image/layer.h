@@ -3,7 +3,7 @@
 // The composition uses SIMD by Highway, with the same bits on every target and for any number of
 // threads.
 //
-// Threads   Pure; composite_over() uses `threads` threads of its own.
+// Threads   Pure. composite_over() uses `threads` threads of its own.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,8 @@
 
 namespace stormcellar::render {
 
-// The color and opacity in front of a background. Colors are 0..1, premultiplied by alpha.
+// The colors and the opacity that lie in front of a background. Colors are 0..1, premultiplied by
+// alpha.
 struct Layer {
     int width = 0, height = 0;
     std::vector<float> rgba;

@@ -42,7 +42,7 @@ void put_outline(cairo_t* context, cairo_scaled_font_t* font, cairo_glyph_t glyp
     cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
 }
 
-// Draws a letter at the origin. A letter without lines, such as a space, gives an empty mask.
+// Draws a letter at the origin. If the letter has no lines, like a space, the mask is empty.
 CoverMask draw_letter(cairo_scaled_font_t* font, unsigned long number, double pen) {
     const SurfaceOwner nowhere(cairo_recording_surface_create(CAIRO_CONTENT_ALPHA, nullptr));
     const ContextOwner ruler(cairo_create(nowhere.get()));
@@ -64,7 +64,7 @@ CoverMask draw_letter(cairo_scaled_font_t* font, unsigned long number, double pe
     return mask;
 }
 
-// A letter, and where its mask begins.
+// A letter, and the place at which its mask begins.
 struct PlacedLetter {
     const CoverMask* mask;
     int left, top;

@@ -1,13 +1,13 @@
 // render/image/letter_halos.h -- the outlines of letters, which make the halo of a text.
 //
-// An outline is a letter drawn with a round pen. Drawing costs far more than copying, and a map
-// repeats the same letters, so each letter of a font and a size is drawn once. Letters are at whole
-// pixels, so that a copy equals the letter to the bit. If the outlines of two letters meet in a
-// pixel, they cover it from its two sides, so their shares are added.
+// An outline is a letter that is drawn with a round pen. Drawing takes far longer than copying, and
+// a map repeats the same letters. So each letter of a font and a size is drawn only once. Letters
+// are at whole pixels, so that a copy equals a drawn letter to the bit. If the outlines of two
+// letters meet in a pixel, they cover it from two sides, so their shares are added.
 //
 // Units     Pixels.
 // Threads   One thread at a time.
-// Errors    Letters that Cairo cannot draw (no memory) are left out.
+// Errors    Letters that Cairo cannot draw for lack of memory are left out.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include <tuple>
 #include <vector>
 
-// These names are Cairo's, so that its headers stay out of ours.
+// These names are Cairo's. Declaring them here keeps Cairo's headers out of ours.
 // NOLINTBEGIN(bugprone-reserved-identifier)
 struct _cairo;
 struct _cairo_scaled_font;
@@ -24,7 +24,7 @@ struct _cairo_scaled_font;
 
 namespace stormcellar::render {
 
-// The share of each pixel that is covered, 0 to 255, row by row from the top.
+// A mask. It has the share of each pixel that is covered, 0 to 255, row by row from the top.
 struct CoverMask {
     int left = 0, top = 0;  // of the mask, relative to the letter or to the picture
     int width = 0, height = 0;
@@ -34,8 +34,8 @@ struct CoverMask {
 
 class LetterHalos {
   public:
-    // Returns the outline of a text that starts at x on its baseline y, drawn with a pen of this
-    // width. `bold` and `size` tell the fonts of a canvas apart.
+    // Returns the outline of a text, drawn with a pen of this width. The text begins at x on its
+    // baseline y. `bold` and `size` say which font of the canvas it has.
     [[nodiscard]] CoverMask halo_of(_cairo_scaled_font* font, bool bold, double size,
                                     const char* text, int x, int y, double pen);
 
@@ -46,7 +46,7 @@ class LetterHalos {
     std::map<Key, CoverMask> letters_;
 };
 
-// Paints the covered part of the mask with the context's source.
+// Paints the part of the picture that the mask covers with the context's source.
 void paint_cover(_cairo* context, CoverMask& mask);
 
 }  // namespace stormcellar::render

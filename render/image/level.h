@@ -7,8 +7,8 @@
 
 namespace stormcellar::render {
 
-// Returns std::lround(level) for a level between 0 and 255. Millions of pixels need it, and the
-// library function takes ten times as long.
+// Returns std::lround(level) for a level from 0 to 255. Millions of pixels need this, and the
+// library's function takes ten times as long.
 [[nodiscard]] inline std::uint8_t nearest_level(double level) {
     const int whole = static_cast<int>(level);
     return static_cast<std::uint8_t>(whole + (level - whole >= 0.5 ? 1 : 0));

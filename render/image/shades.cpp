@@ -28,7 +28,7 @@ Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share) {
 }
 
 Rgba8 hatched(Rgba8 ground, Rgba8 lines, int x, int y, double scale) {
-    const double period = 9 * scale;  // along a row of pixels
+    const double period = 9 * scale;  // distance between two lines, along a row of pixels
     const double place = x + y;
     const double along = place - period * static_cast<int>(place / period);
     const double distance = std::min(along, period - along) / std::numbers::sqrt2;

@@ -1,9 +1,9 @@
 // render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
-// The colors of the ground are nearly gray, and far from the lightness of echo, so that none looks
-// like a reflectivity. Letters have a contrast of 4.5 or more against every background but echo;
-// over echo, letters have this contrast against their halo. Lines of the map have less contrast, so
-// that they stay behind the echo (tests/render/shades_test.cpp has the figures).
+// The colors of the ground are nearly gray. Their lightness is far from that of echo, so that none
+// looks like a reflectivity. Letters have a contrast of 4.5 or more against every background but
+// echo; over echo, they have this contrast against their halo. Lines of the map have less contrast,
+// so that they stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -11,13 +11,13 @@
 
 namespace stormcellar::render {
 
-// The colors of ground, by how it was seen. Ground that was not seen has thin diagonal lines over
-// it.
+// The colors of ground, by how the air over it was seen. Ground under air that was not seen has
+// thin diagonal lines over it.
 struct GroundShades {
-    Rgba8 seen;        // from low down
-    Rgba8 seen_aloft;  // only from higher up
+    Rgba8 seen;        // seen from low down
+    Rgba8 seen_aloft;  // seen only from higher up
     Rgba8 not_seen;
-    Rgba8 beyond;  // outside the grid
+    Rgba8 beyond;  // ground outside the grid
 };
 
 struct Shades {
@@ -87,10 +87,11 @@ inline constexpr Shades light = {
 
 [[nodiscard]] const Shades& shades_of(Theme theme);
 
-// Returns a mix with the alpha of `one`. A share of 0 gives the color of `one`, a share of 1 the
-// color of `other`.
+// Returns a mix of two colors, with the alpha of `one`. A share of 0 gives the color of `one`, and
+// a share of 1 that of `other`.
 [[nodiscard]] Rgba8 mixed_between(Rgba8 one, Rgba8 other, double share);
-// Returns mixed_between(), but faster for shares of 0 and 1, which nearly all pixels have.
+// Returns the same as mixed_between(), but faster for shares of 0 and 1, which nearly all pixels
+// have.
 [[nodiscard]] inline Rgba8 mixed(Rgba8 one, Rgba8 other, double share) {
     if (share == 0) return one;
     if (share == 1) return {other[0], other[1], other[2], one[3]};
@@ -98,7 +99,7 @@ inline constexpr Shades light = {
 }
 
 // Returns the color of ground that was not seen, with thin diagonal lines, at a pixel of the whole
-// picture. The lines are `scale` times as far apart as usual.
+// picture. The distance between lines is `scale` times the usual one.
 [[nodiscard]] Rgba8 hatched(Rgba8 ground, Rgba8 lines, int x, int y, double scale);
 
 }  // namespace stormcellar::render

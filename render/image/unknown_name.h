@@ -1,4 +1,4 @@
-// render/image/unknown_name.h -- the error for a name that is not in a table.
+// render/image/unknown_name.h -- makes the error for a name that a table does not have.
 //
 // Threads   Pure.
 #pragma once
@@ -12,9 +12,9 @@
 
 namespace stormcellar::render {
 
-// Says "there is no theme 'drak'; did you mean 'dark'?" for the kind "theme". If no name is near,
-// lists all names instead: "there is no theme 'x'; the known themes are dark or light". In this
-// example, `all` is "themes are dark or light".
+// Returns an error such as "there is no theme 'drak'; did you mean 'dark'?" for the kind "theme".
+// If no name is near, lists all names instead, as in "there is no theme 'x'; the known themes are
+// dark or light". In this example, `all` is "themes are dark or light".
 [[nodiscard]] inline tl::unexpected<Error> unknown_name(std::string_view kind,
                                                         std::string_view name,
                                                         std::span<const std::string> names,

@@ -1,6 +1,6 @@
-// render/image/webp_bytes.h -- the common code of stills and loops in WebP: memory of libwebp, and
-// the bytes of a file with its metadata. Stills and loops are separate libraries, so all functions
-// are inline.
+// render/image/webp_bytes.h -- code for both stills and loops in WebP: owns libwebp's memory, and
+// makes the bytes of a file with its metadata. Stills and loops are separate libraries, so all
+// functions are inline.
 //
 // Threads   Pure functions.
 // Errors    internal if libwebp refuses.
@@ -20,7 +20,7 @@
 
 namespace stormcellar::render {
 
-// Memory of libwebp, freed at the end of a scope.
+// Memory of libwebp. It is freed at the end of a scope.
 struct WebpBytes {
     WebPData data{};
     WebpBytes() { WebPDataInit(&data); }
@@ -37,7 +37,7 @@ struct WebpMuxDeleter {
     return fail(ErrorCode::internal, "WebP: the library's version is not the header's");
 }
 
-// Returns a copy of an encoded file, with the texts as XMP unless there are none.
+// Returns a copy of an encoded file. If there are texts, adds them as XMP.
 [[nodiscard]] inline Result<std::vector<std::byte>> webp_file(const WebPData& encoded,
                                                               const PictureTexts& texts) {
     const auto copy_of = [](const WebPData& data) {

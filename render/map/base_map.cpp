@@ -23,7 +23,7 @@ Number little_endian(std::span<const std::byte> bytes, std::size_t offset) {
     return number;
 }
 
-// A read past the end fails and gives zero, and so do all later reads.
+// Reads numbers and bytes. A read past the end fails and returns zero, and so do all later reads.
 class Reader {
   public:
     explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -56,7 +56,7 @@ class Reader {
         const std::int64_t folded = number();
         return (folded & 1) != 0 ? -(folded / 2) - 1 : folded / 2;
     }
-    // Reads the number of the following items, each of at least `least_bytes`.
+    // Reads how many items follow. Each item must have at least `least_bytes`.
     std::size_t count(std::size_t least_bytes) {
         const std::size_t value = number();
         if (value > remaining() / least_bytes) fail_now();

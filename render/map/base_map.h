@@ -1,11 +1,12 @@
 // render/map/base_map.h -- the built-in map: coasts, borders, cities.
 //
-// scripts/make-map-data makes it from public-domain data (docs/data-sources.md), for the area that
-// the weather radars of the United States can see. Lines come in three levels of detail; a picture
-// uses one level.
+// scripts/make-map-data makes the map from public-domain data (docs/data-sources.md), for the area
+// that the weather radars of the United States can see. There are three levels of detail for lines;
+// a picture uses one of them.
 //
-// Format, version 2. Little-endian; `v` is an unsigned LEB128 number of at most 32 bits, `z` a
-// zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U degrees on WGS84.
+// Format, version 2. Numbers are little-endian; `v` is an unsigned LEB128 number of at most 32
+// bits, and `z` is a zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U
+// degrees on WGS84.
 //
 //   offset size
 //        0    8  magic "SCBASMAP"
@@ -24,12 +25,12 @@
 //   city         v bytes of the name, the name in UTF-8, v population, z latitude, z longitude; the
 //                largest first
 //
-// Threads   Immutable once made. A BaseMap refers to the bytes that it was made from.
+// Threads   Immutable once made. A BaseMap refers to the bytes from which it was made.
 // Errors    empty, truncated, corrupt (also by its checksum), unsupported (another version).
 //           Contradictions in bytes with a correct checksum are corrupt too; points_of() finds the
 //           last of these contradictions.
-// Accuracy  As accurate as the sources (docs/data-sources.md); the format adds 1/(2 U) degrees, 6
-//           m.
+// Accuracy  As accurate as the sources (docs/data-sources.md). The format adds 1/(2 U) degrees,
+//           which is 6 m.
 #pragma once
 
 #include <cstddef>
@@ -43,14 +44,16 @@
 
 namespace stormcellar::render {
 
-// These numbers belong to the format, so they do not change. The kinds are in the order of drawing.
+// The numbers are part of the format, so they do not change. The kinds are in the order in which
+// they are drawn.
 enum class MapKind : std::uint8_t { county = 1, state = 2, lake = 3, country = 4, coast = 5 };
 inline constexpr int map_detail_count = 3;
 inline constexpr double map_tile_deg = 2;
 
 // Returns true for the kinds whose lines are the rings of areas.
 [[nodiscard]] bool is_area(MapKind kind);
-// Returns true if a segment runs along the edge of a tile, where an area goes on.
+// Returns true if a segment is on the edge of a tile. There the area goes on, so the segment is no
+// shore.
 [[nodiscard]] bool is_tile_edge(const grid::GeoPoint& from, const grid::GeoPoint& to);
 
 struct MapCity {
@@ -59,7 +62,7 @@ struct MapCity {
     grid::GeoPoint place;
 };
 
-// The box of a line, and the bytes of its points.
+// A line: its box, and the bytes of its points.
 struct MapLine {
     double west_deg = 0, south_deg = 0, east_deg = 0, north_deg = 0;
     std::uint32_t point_count = 0;
@@ -75,7 +78,7 @@ struct MapSet {
 
 class BaseMap {
   public:
-    // Reads the map in these bytes, which must outlive it.
+    // Reads the map in these bytes. The bytes must outlive the map.
     static Result<BaseMap> read(std::span<const std::byte> bytes);
     // Returns the built-in map.
     static Result<BaseMap> built_in();

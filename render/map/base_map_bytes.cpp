@@ -1,5 +1,5 @@
-// The bytes of the built-in map. The assembler includes them, so the program needs no path to a
-// file.
+// The bytes of the built-in map. The assembler includes them, so that the program needs no path to
+// find the file.
 #include "render/map/base_map.h"
 
 // clang-format off

@@ -20,8 +20,8 @@ void add_block(ColorBar& bar, const Rect& box, double low_y, double high_y, Rgba
     bar.blocks.push_back({{box.x, high_y, box.width, low_y - high_y}, color});
 }
 
-// Returns the text of the bound of a class. Bounds are round numbers in the unit of the table. In
-// another unit they are rounded, to whole numbers from 10 on and to tenths below.
+// Returns the text for the bound of a class. In the unit of the table, bounds are round numbers. In
+// another unit, they are rounded to whole numbers from 10 on, and to tenths below.
 std::string bound_text(double value, const BarScale& scale) {
     const double shown = value * scale.shown_per_value;
     if (scale.shown_per_value == 1) return fmt::format("{:g}", shown);
@@ -41,7 +41,7 @@ ColorBar stepped_bar(const BarScale& scale, const Rect& box, double least_tick, 
         const double low = std::round(box.bottom() - static_cast<double>(i) * height);
         const double high = std::round(box.bottom() - static_cast<double>(i + 1) * height);
         if (low > high) {
-            // Neighboring classes of one color stay separate, so that each class is shown.
+            // Keep neighboring classes of the same color separate, so that each class is shown.
             bar.blocks.push_back(
                 {{box.x, high, box.width, low - high}, over(table.stops[i].color, ground)});
         }
@@ -90,8 +90,8 @@ ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick, Rg
 ColorBar lying_bar(const BarScale& scale, const Rect& box,
                    const std::function<double(const std::string&)>& width_of, double gap,
                    Rgba8 ground) {
-    // Makes an upright bar and turns it on its side. The bar gets fewer numbers until no number
-    // touches the next.
+    // Makes an upright bar and turns it on its side. Takes away numbers until no number touches the
+    // next.
     const Rect upright = {0, 0, box.height, box.width};
     const auto crowded = [&](const std::vector<BarTick>& ticks) {
         for (std::size_t i = 1; i < ticks.size(); ++i) {

@@ -27,21 +27,21 @@ struct ColorBar {
     std::vector<BarTick> ticks;    // at least `least_tick` apart
 };
 
-// A color table, and the factor from its values to the numbers of the bar.
+// A color table, and the factor by which its values are multiplied for the numbers of the bar.
 struct BarScale {
     const ColorTable& table;
     double shown_per_value = 1;
 };
 
-// Makes a bar that rises with the value. For stepped tables, classes have equal heights, with ticks
-// at their lower bounds (at every second, third ... if there is no room). For tables with blends,
-// the bar is linear in the value from `bar_begin` (by default the first stop) to `end`, with ticks
-// at round values. A box with fewer pixels than classes loses classes, but not its ends.
-// Translucent colors show the `ground` below.
+// Makes a bar that rises with the value. In a stepped table, all classes have the same height, with
+// ticks at their lower bounds (at every second, third ... if there is little room). In a table with
+// blends, the bar is linear in the value from `bar_begin` (by default the first stop) to `end`,
+// with ticks at round values. If a box has fewer pixels than classes, some classes are lost, but
+// not those at the ends. Translucent colors show the color `ground` below them.
 [[nodiscard]] ColorBar color_bar(const BarScale& scale, const Rect& box, double least_tick,
                                  Rgba8 ground);
-// Makes a horizontal bar by the rules of color_bar(), rising to the right. The numbers are at least
-// `gap` apart; `width_of` gives their widths.
+// Makes a horizontal bar by the rules of color_bar(). It rises to the right. Its numbers are at
+// least `gap` apart; `width_of` returns the width of a number.
 [[nodiscard]] ColorBar lying_bar(const BarScale& scale, const Rect& box,
                                  const std::function<double(const std::string&)>& width_of,
                                  double gap, Rgba8 ground);

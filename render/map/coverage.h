@@ -1,4 +1,4 @@
-// render/map/coverage.h -- the share of a grid's columns that was seen.
+// render/map/coverage.h -- computes the share of a grid's columns that was seen.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -17,12 +17,12 @@ struct Coverage {
     double seen_low = 0;  // below low_coverage_m (render/products/ground.h)
 };
 
-// Returns the shares, which are 0 if there are no columns. All columns count alike, even if the
+// Returns the shares. They are 0 if there are no columns. All columns count the same, even if the
 // cells of the grid differ in size.
 [[nodiscard]] Coverage coverage_of(std::span<const ColumnSummary> columns,
                                    const grid::GridSpec& spec);
 
-// Returns "87 %", or "< 1 %" and "> 99 %" if rounding would give none or all.
+// Returns a text such as "87 %". If rounding would give none or all, returns "< 1 %" or "> 99 %".
 [[nodiscard]] std::string percent_text(double share);
 
 }  // namespace stormcellar::render

@@ -44,8 +44,8 @@ void draw_heights(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
     draw_texts(canvas, fonts, lines, marks.height_texts);
 }
 
-// Turns directions on the ground into directions in the middle of the picture. A unit circle of the
-// ground becomes an ellipse, scaled so that its long axis is 1.
+// Turns directions on the ground into directions in the picture, at its middle. A unit circle of
+// the ground becomes an ellipse, which is scaled so that its long axis is 1.
 class GroundTurn {
   public:
     explicit GroundTurn(const ViewGeometry& geometry) {
@@ -60,7 +60,7 @@ class GroundTurn {
         };
         east_ = slope(1, 0);
         north_ = slope(0, 1);
-        // Computes the larger singular value of the slopes.
+        // Computes the larger singular value of the matrix of slopes.
         const double squares =
             east_.x * east_.x + east_.y * east_.y + north_.x * north_.x + north_.y * north_.y;
         const double area = east_.x * north_.y - east_.y * north_.x;
@@ -133,7 +133,7 @@ void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const
         canvas.fill(circle_about(moved(lines, city), 2.6 * lines.scale), lines.shades->halo);
         canvas.fill(circle_about(moved(lines, city), 1.6 * lines.scale), lines.shades->city);
     }
-    // If there are many sites, their marks are smaller.
+    // With many sites, draw smaller marks.
     const double size = marks.sites.size() > 1 ? 0.75 : 1;
     for (const Point& site : marks.sites) {
         const Point at = moved(lines, site);

@@ -7,7 +7,7 @@
 
 namespace stormcellar::render {
 
-// Draws all marks on top of the picture. Letters have a halo, so that echo below does not hide
+// Draws all marks on top of the picture. Their letters have a halo, so that echo does not hide
 // them.
 void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks);
 

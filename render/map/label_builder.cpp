@@ -39,11 +39,11 @@ double LabelBuilder::put(std::string text, double x, double baseline, double roo
     return width;
 }
 
-// Returns the text, shortened with an ellipsis to fit the room; empty if not even the ellipsis
-// fits.
+// Returns the text. If it does not fit into the room, shortens it and adds an ellipsis. Returns an
+// empty text if not even the ellipsis fits.
 std::string LabelBuilder::shortened(std::string text, double size, bool bold, double room) const {
     if (fonts_.width(text, size, bold) <= room) return text;
-    // Removes whole characters of UTF-8, and spaces before the ellipsis.
+    // Removes only whole characters of UTF-8. Also removes spaces before the ellipsis.
     const auto cut = [&text](std::size_t bytes) {
         while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U)
             --bytes;

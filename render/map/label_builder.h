@@ -1,6 +1,6 @@
 // render/map/label_builder.h -- puts texts and blocks of color into a layout of labels.
 //
-// Sizes of text are at scale 1. Places, widths and boxes are in pixels.
+// Sizes of text are for scale 1. Places, widths and boxes are in pixels.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -29,10 +29,11 @@ struct LabelBlock {
     std::optional<Rgba8> lines = {};  // the block is hatched with lines of this color
 };
 
-// The parts that are drawn around a picture.
+// All that is drawn around a picture.
 struct LabelParts {
     std::vector<LabelBlock> blocks;  // color bars and legends
-    std::vector<Rect> outlines;      // around color bars, whose ends may have the color of the page
+    // Around color bars, because their ends may have the page's color.
+    std::vector<Rect> outlines;
     std::vector<LabelText> texts;
 };
 
@@ -42,7 +43,7 @@ struct LabelStyle {
     Rgba8 color{};
 };
 
-// The part of a text that is placed at x.
+// The part of a text that is at x.
 enum class Align { left, middle, right };
 
 class LabelBuilder {
@@ -53,7 +54,7 @@ class LabelBuilder {
 
     [[nodiscard]] double scaled(double length) const { return length * scale_; }
     [[nodiscard]] const Shades& shades() const { return shades_; }
-    // Returns the width of a text at its full size, in pixels.
+    // Returns the width in pixels of a text at its full size.
     [[nodiscard]] double width_of(const std::string& text, const LabelStyle& style) const {
         return fonts_.width(text, scaled(style.size), style.bold);
     }
@@ -61,9 +62,9 @@ class LabelBuilder {
     [[nodiscard]] LabelStyle quiet(double size) const { return {size, false, shades_.quiet_text}; }
     [[nodiscard]] LabelStyle strong(double size) const { return {size, true, shades_.text}; }
 
-    // Places a text. To fit into `room` pixels, the text is made smaller (down to three quarters)
-    // and then cut with an ellipsis. Returns the width of the text as placed; 0 if the text is
-    // empty or has no room at all.
+    // Places a text. If it does not fit into `room` pixels, makes it smaller, down to three
+    // quarters; if it still does not fit, cuts it and adds an ellipsis. Returns the width of the
+    // placed text; 0 if the text is empty or there is no room at all.
     double put(std::string text, double x, double baseline, double room, const LabelStyle& style,
                Align align = Align::left);
     void block(const Rect& box, Rgba8 color, std::optional<Rgba8> lines = {}) {

@@ -1,4 +1,4 @@
-// render/map/label_places.h -- tracks which parts of a picture are taken, so that texts do not
+// render/map/label_places.h -- remembers which parts of a picture are taken, so that texts do not
 // overlap.
 //
 // Threads   One thread at a time.
@@ -13,7 +13,7 @@ namespace stormcellar::render {
 
 class LabelPlaces {
   public:
-    // Boxes that are not inside the frame are never free.
+    // A box that is not wholly inside the frame is never free.
     explicit LabelPlaces(const Rect& frame) : frame_(frame) {}
 
     [[nodiscard]] bool is_free(const Rect& box) const {
@@ -25,7 +25,7 @@ class LabelPlaces {
                });
     }
     void take(const Rect& box) { taken_.push_back(box); }
-    // Takes the box if it is free.
+    // Takes the box if it is free. Returns false if it is not.
     bool claim(const Rect& box) {
         if (!is_free(box)) return false;
         take(box);

@@ -29,7 +29,7 @@ std::string direction_name(double azimuth_deg) {
     return names[static_cast<std::size_t>(std::lround(turn / 22.5)) % names.size()];
 }
 
-// Returns true if the name of the domain is a list of many sites, such as "KBGM+KCCX".
+// Returns true if the name of the domain is a list of many sites, as in "KBGM+KCCX".
 bool is_long_list_of_sites(const FrameFacts& facts) {
     constexpr std::size_t most_named = 3;
     const auto between = static_cast<std::size_t>(std::ranges::count(facts.domain, '+'));
@@ -48,7 +48,7 @@ std::string title_of(const FrameFacts& facts) {
     if (const auto station = find_station(icao)) {
         title += fmt::format("  {}, {}", station->name, station->state);
     }
-    // The domain with the data of one site is called NAME.ICAO.
+    // In a mosaic, the domain with one site's data is named NAME.ICAO.
     if (facts.domain.ends_with("." + icao)) {
         const std::string name = facts.domain.substr(0, facts.domain.size() - icao.size() - 1);
         return fmt::format("{}  ({})", title, name);
@@ -57,7 +57,7 @@ std::string title_of(const FrameFacts& facts) {
     return title;
 }
 
-// Returns a text such as "gradient, shadow".
+// Returns the kinds of light as text, such as "gradient, shadow".
 std::string light_text(const Light& light) {
     std::string text;
     for (const char letter : light_names(light))
@@ -85,7 +85,7 @@ std::vector<std::string> warnings_of(const FrameFacts& facts) {
     return warnings;
 }
 
-// Returns the text below the time.
+// Returns the text that is written below the time.
 std::string beside_time(const FrameFacts& facts) {
     if (!facts.interpolated) return facts.local_time;
     return (facts.local_time.empty() ? "" : facts.local_time + "  \u00B7  ") + "interpolated";
@@ -110,8 +110,8 @@ std::string view_line(const Scene& scene, const FrameFacts& facts, double ring_s
     return text;
 }
 
-// Places the product and the warnings on one line, so that the frames of a loop keep their place.
-// The line ends `room` pixels to the right of `left`.
+// Places the product and the warnings on one line, so that nothing moves from frame to frame of a
+// loop. The line ends `room` pixels to the right of `left`.
 void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, double baseline,
                  double room, double size) {
     const double gap = builder.scaled(14);
@@ -122,8 +122,8 @@ void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, d
                 {size, true, builder.shades().warning_text});
 }
 
-// Takes room for the small map of a section: from the colors at the right, from the colors below,
-// or, in a tall picture, from the section, below the title.
+// Takes room for the small map of a section: from the colors if they are at the right, or from the
+// colors below, or, in a tall picture, from the section itself, below the title.
 void make_room_for_inset(const PictureSpace& space, const LabelBuilder& builder,
                          LabelLayout& layout, Rect& colors) {
     const double gap = std::round(builder.scaled(8));

@@ -1,12 +1,13 @@
-// render/map/labels.h -- the frame around the picture: title, time, color bar, legend and notes.
+// render/map/labels.h -- lays out what is around the picture: title, time, color bar, legend and
+// notes.
 //
-// The picture is between a header and a footer; the color bar and the legend are at its right or
-// below it (render/map/picture_space.h). The place of the picture depends on the scene alone, so
+// The picture is between a header and a footer. The color bar and the legend are at its right or
+// below it (render/map/picture_space.h). The place of the picture depends only on the scene, so
 // that it does not move from frame to frame of a loop. Layout and drawing are separate, so that
-// tests can check that nothing overlaps. Text without enough room becomes smaller, down to three
+// tests can check that nothing overlaps. A text without enough room becomes smaller, down to three
 // quarters, and then ends in an ellipsis.
 //
-// Threads   Plain values and pure functions; Fonts may be used by one thread at a time.
+// Threads   Plain values and pure functions. One thread at a time may use a Fonts.
 #pragma once
 
 #include <optional>
@@ -23,23 +24,24 @@
 
 namespace stormcellar::render {
 
-// Labels need room: smaller pictures are drawn without labels, or not at all.
+// Labels need room. A smaller picture is drawn without labels or not at all.
 inline constexpr int smallest_labelled_width = 400;
 inline constexpr int smallest_labelled_height = 300;
 
 struct LabelLayout : LabelParts {
     double scale = 1;                              // of text and lines; 1 for 796 x 532 pixels
     int left = 0, top = 0, width = 0, height = 0;  // the picture
-    std::optional<Rect> inset;                     // for a section: the small map of its line
+    // For a section: the place of the small map that shows its line.
+    std::optional<Rect> inset;
     const Shades* shades = &shades::dark;
 };
 
-// The facts about the picture that its labels show, besides the facts about its grid.
+// Facts about the picture that its labels show, besides the facts about its grid.
 struct DrawnFacts {
     Legend legend;
-    double ring_spacing_m = 50e3;  // as drawn
+    double ring_spacing_m = 50e3;  // the spacing that is drawn
     std::optional<Coverage> coverage;
-    std::string sweep = {};  // for a ppi: the line about its sweep
+    std::string sweep = {};  // for a ppi: the line about the sweep
 };
 
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.
@@ -52,9 +54,9 @@ struct HeaderTexts {
     std::string title, product, time, local_time, warnings;
 };
 [[nodiscard]] HeaderTexts header_of(const FrameFacts& facts, const std::string& product);
-// Returns the title of the product and, for the storm-relative velocity, the motion of the storm.
+// Returns the title of the product. For the storm-relative velocity, adds the motion of the storm.
 [[nodiscard]] std::string product_line(const Scene& scene, const FrameFacts& facts);
-// Places the header of a picture of this shape over its whole width, in pixels.
+// Places the header of a picture of this shape. It is as wide as the picture (`width`, in pixels).
 void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
                     const HeaderTexts& texts);
 struct FooterTexts {
@@ -62,13 +64,13 @@ struct FooterTexts {
 };
 [[nodiscard]] FooterTexts footer_of(const Scene& scene, const FrameFacts& facts,
                                     const DrawnFacts& picture);
-// Places the lines of small print at the bottom of a picture of this size: two texts begin at the
-// left, two end at the right.
+// Places the lines of small print at the bottom of a picture of this size. Two texts begin at the
+// left, and two end at the right.
 void lay_out_footer(LabelBuilder& builder, double width, double height, const FooterTexts& texts);
 
 void draw_labels(Canvas& canvas, const Fonts& fonts, const LabelLayout& layout);
 
-// Returns "42 s" or "3 min 12 s".
+// Returns a duration such as "42 s" or "3 min 12 s".
 [[nodiscard]] std::string duration_text(std::chrono::seconds duration);
 
 }  // namespace stormcellar::render

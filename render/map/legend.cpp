@@ -13,8 +13,8 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns "no echo and < 5 dBZ" for a table that begins at 5 dBZ, and "no echo" for a table that
-// covers all values.
+// Returns a text such as "no echo and < 5 dBZ" for a table that begins at 5 dBZ. Returns "no echo"
+// for a table that covers all values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColorTable& table = colors_of(scene);
     const bool takes_all =

@@ -1,5 +1,5 @@
-// render/map/legend.h -- the texts about a product beside its picture: its name, its colors and
-// their meaning.
+// render/map/legend.h -- makes the texts beside a picture: the name of its product, the product's
+// colors, and their meaning.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -20,13 +20,15 @@ struct LegendRow {
 };
 
 struct Legend {
-    std::string product;                // "Composite reflectivity (column maximum)"
-    std::string heading;                // over the rows; may be empty
-    std::vector<LegendRow> rows;        // from the top down: colors that the color bar lacks
+    std::string product;  // "Composite reflectivity (column maximum)"
+    std::string heading;  // over the rows; may be empty
+    // From the top down: colors that the color bar does not have.
+    std::vector<LegendRow> rows;
     std::vector<std::string> notes;     // in small print below
     std::string bar_heading;            // the unit, else the name of the moment
     const ColorTable* table = nullptr;  // of the color bar; null: no bar
-    double shown_per_value = 1;         // factor from the table's numbers to the bar's numbers
+    // Factor by which the table's numbers are multiplied for the bar.
+    double shown_per_value = 1;
 };
 
 // Makes the legend of a valid scene. The table of the scene must outlive the legend.

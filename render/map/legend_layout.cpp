@@ -12,8 +12,8 @@ constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
 
-// Returns one size for all rows. If a row has no room, all rows become smaller, down to three
-// quarters.
+// Returns the size of the letters, which is the same for all rows. If one row has no room, all rows
+// become smaller, down to three quarters.
 double size_of_rows(const LabelBuilder& builder, const std::vector<LegendRow>& rows, double room) {
     double size = row_text;
     const auto too_wide = [&](const LegendRow& row) {
@@ -43,7 +43,8 @@ void lay_out_upright_bar(LabelBuilder& builder, const Legend& legend, const Rect
     }
 }
 
-// Puts the bar's heading at its left, and its numbers below. Returns the baseline of the numbers.
+// Puts the heading of the bar at its left, and the numbers below it. Returns the baseline of the
+// numbers.
 double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect& band) {
     const double height = std::round(builder.scaled(11));
     const double top = std::round(band.y + builder.scaled(9));
@@ -70,7 +71,7 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     return baseline;
 }
 
-// A row of the legend in a line, or a heading or a note, which has no swatch.
+// An item in the line of the legend. It is a row, or a heading or a note; these have no swatch.
 struct LineItem {
     std::string text;
     LabelStyle style;
@@ -119,7 +120,7 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
     const double room = panel.right() - builder.scaled(4) - x;
     const double row = builder.scaled(17);
 
-    // Works from the bottom up: notes, legend, its heading. The bar takes the rest.
+    // Work from the bottom up: notes, legend, heading of the legend. The bar takes what is left.
     double y = panel.bottom() - builder.scaled(4);
     for (auto note = legend.notes.rbegin(); note != legend.notes.rend(); ++note) {
         builder.put(*note, x, y, room, builder.quiet(row_text));

@@ -1,7 +1,7 @@
 // render/map/map_ground.h -- converts between places on the earth and the ground of the picture, in
 // meters.
 //
-// The ground is the plane of the grid's projection about the middle of the grid, as in
+// The ground is the plane of the grid's projection. Its origin is the middle of the grid, as in
 // ViewGeometry.
 //
 // Accuracy  1e-7 m, as in stormcellar/grid/projection.h.

@@ -21,7 +21,7 @@ constexpr double most_bent_px = 0.2;
 constexpr double least_step_px = 0.3;
 constexpr double county_m = 45e3;
 constexpr double least_county_px = 30;
-// Cairo's numbers end beyond this distance; a point there is not visible.
+// Cairo cannot represent numbers beyond this. A point that is so far away is not visible.
 constexpr double farthest_px = 1e6;
 constexpr double most_mask_cells = 4096;  // along a side
 constexpr double most_tile_edge_deg = 0.25;
@@ -30,8 +30,8 @@ struct Box {
     double west = 0, south = 0, east = 0, north = 0;
 };
 
-// Returns the part of the ground that the picture shows: the grid, and the ground up to
-// reach_beyond_m() around it.
+// Returns the part of the ground that the picture shows: the grid, and what is within
+// reach_beyond_m() of it.
 Box visible_ground(const ViewGeometry& geometry) {
     const double reach = reach_beyond_m(geometry);
     const Box grid = {-geometry.half_x_m() - reach, -geometry.half_y_m() - reach,
@@ -51,7 +51,7 @@ Box visible_ground(const ViewGeometry& geometry) {
             std::min(grid.east, seen.east), std::min(grid.north, seen.north)};
 }
 
-// Returns the meters of ground for each pixel in the finest part of the picture.
+// Returns how many meters of ground a pixel covers in the finest part of the picture.
 double finest_metres_per_pixel(const ViewGeometry& geometry) {
     double finest = HUGE_VAL;
     for (const double share : {0.5, 0.75, 1.0}) {
@@ -66,8 +66,8 @@ double finest_metres_per_pixel(const ViewGeometry& geometry) {
     return std::isfinite(finest) && finest > 0 ? finest : geometry.metres_per_pixel();
 }
 
-// Returns the latitudes and longitudes of a part of the ground, with a margin. Longitudes are
-// continuous and may leave -180..180.
+// Returns the range of latitudes and longitudes of a part of the ground, with a margin. Longitudes
+// are continuous, so they may leave -180..180.
 Box degrees_of(const GroundMap& ground, const Box& box) {
     constexpr int steps = 32;
     Box found = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -106,7 +106,7 @@ bool touches(const MapLine& line, const Box& degrees) {
     return false;
 }
 
-// Clips a segment to a box; returns false if nothing is left (Liang and Barsky 1984).
+// Clips a segment to a box (Liang and Barsky 1984). Returns false if nothing is left.
 bool clip(GroundPoint& a, GroundPoint& b, const Box& box) {
     double from = 0;
     double to = 1;
@@ -141,7 +141,7 @@ class Tracer {
           most_bent_m_(most_bent_px * finest_m),
           strokes_(strokes) {}
 
-    // Traces one line. `at` has the ground of each point.
+    // Traces one line. `at` has the place of each point on the ground.
     void trace(MapKind kind, const std::vector<grid::GeoPoint>& line,
                const std::vector<GroundPoint>& at) {
         kind_ = kind;
@@ -168,8 +168,8 @@ class Tracer {
     void divide(const Vertex& a, const Vertex& b, int depth) {
         if (!is_finite(a.at) || !is_finite(b.at)) return break_off();
         const double length = std::hypot(b.at.x_m - a.at.x_m, b.at.y_m - a.at.y_m);
-        // The bound is four times the sagitta of a parallel at 45 degrees of latitude, which is
-        // enough for latitudes up to 75.
+        // The bound is four times the sagitta of a parallel at 45 degrees of latitude. This is
+        // enough up to latitude 75.
         const bool may_bend = length * length / (2 * earth_radius_m) > most_bent_m_;
         if (!may_bend || depth == 12) return segment(a.at, b.at);
         Vertex middle;
@@ -199,7 +199,7 @@ class Tracer {
             points_.push_back(to);
             has_waiting_ = false;
         }
-        // The segment was cut off at its far end, so the next one does not begin there.
+        // The far end of the segment was cut off, so the next segment does not begin there.
         if (b.x_m != end.x_m || b.y_m != end.y_m) break_off();
     }
 
@@ -231,7 +231,7 @@ class Tracer {
     bool has_waiting_ = false;
 };
 
-// Returns the set of a kind to draw: the coarsest set that is fine enough, else the finest set.
+// Returns the set of this kind to draw: the coarsest that is fine enough, else the finest.
 const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) {
     const MapSet* best = nullptr;
     for (const MapSet& set : map.sets()) {
@@ -245,8 +245,8 @@ const MapSet* best_set(const BaseMap& map, MapKind kind, double most_thinned_m) 
     return best;
 }
 
-// Returns the part of the ground whose cities are shown. Seen at a slant, this part ends with the
-// grid, because the ground beyond the grid fades.
+// Returns the part of the ground whose cities are shown. If the view is not from straight above,
+// this is only the grid, because the ground beyond it fades.
 Box box_of_cities(const ViewGeometry& geometry, const Box& shown) {
     if (is_from_above(geometry)) return shown;
     return {std::max(shown.west, -geometry.half_x_m()), std::max(shown.south, -geometry.half_y_m()),
@@ -276,15 +276,15 @@ void add_cities(const BaseMap& map, const GroundMap& ground, const ViewGeometry&
     }
 }
 
-// Puts the rings of areas on a raster of the ground.
+// Draws the rings of areas into a raster of the ground.
 class WaterPainter {
   public:
     WaterPainter(const GroundMap& ground, const Box& box, double finest_m)
         : ground_(ground), mask_(mask_over(box, finest_m)), area_(mask_.width, mask_.height) {}
 
-    // Returns a ring in cells, with segments that are straight in degrees. `at` has the ground of
-    // each point. The edges of tiles are long, so they are divided, at the same places in both
-    // neighboring tiles. Any thread may call this.
+    // Returns the points of a ring, counted in cells. Its segments are straight in degrees. `at`
+    // has the place of each point on the ground. The edges of tiles are long, so they are divided;
+    // the points are the same for both neighboring tiles. Any thread may call this.
     [[nodiscard]] std::vector<Point> cells_of(const std::vector<grid::GeoPoint>& ring,
                                               const std::vector<GroundPoint>& at) const {
         std::vector<Point> cells;
@@ -444,7 +444,8 @@ Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
 
 Result<const MapLayer*> MapCache::get(const grid::GridSpec& spec, const ViewGeometry& geometry,
                                       double scale, int threads) {
-    // Four points of a plane, no three of them on a line, identify the view of the plane.
+    // The view of a plane is determined by the views of four of its points, no three of them on a
+    // line.
     std::vector<double> view = {static_cast<double>(geometry.width()),
                                 static_cast<double>(geometry.height()), scale};
     const double h = geometry.ground_m();

@@ -1,17 +1,17 @@
-// render/map/map_layer.h -- the base map as one picture shows it: projected, clipped and thinned.
+// render/map/map_layer.h -- projects, clips and thins the base map for one picture.
 //
-// The layer is made once for the geometry of a grid, a view and a size; the frames of a loop share
-// it. Every vertex is projected exactly. A segment, which is straight in degrees in its source, is
-// divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
+// The layer is made once for the geometry of a grid, a view and a size, and the frames of a loop
+// share it. Every vertex is projected exactly. A segment is straight in degrees in the source. It
+// is divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
 // finest. Lines continue beyond the grid, as far as the ground is shown (render/products/ground.h).
 // The layer uses the coarsest level of detail that is thinned by at most 0.7 pixels, or else the
-// finest. Points less than 0.3 pixels from the previous point are dropped. Counties are shown if 45
-// km are at least 30 pixels (in a picture of 796 x 532). Points that the view does not project are
-// not shown.
+// finest level. A point that is less than 0.3 pixels from the one before it is dropped. Counties
+// are shown if 45 km are at least 30 pixels (in a picture of 796 x 532). Points that the view does
+// not project are not shown.
 //
 // Accuracy  1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp).
 //           For the accuracy of that map see docs/data-sources.md.
-// Threads   A MapLayer is plain data; preparing is a pure function.
+// Threads   A MapLayer is plain data. Preparing it is a pure function.
 #pragma once
 
 #include <string>
@@ -43,8 +43,8 @@ struct MapLayer {
     WaterMask water;                 // over the ground that the picture shows
 };
 
-// Prepares the layer. `scale` applies to lines and text. Errors: corrupt if the map's lines
-// contradict themselves. The layer does not depend on the number of threads.
+// Prepares the layer. `scale` is for lines and text. The layer does not depend on the number of
+// threads. Errors: corrupt if the map's lines contradict themselves.
 [[nodiscard]] Result<MapLayer> prepare_map(const BaseMap& map, const grid::GridSpec& spec,
                                            const ViewGeometry& geometry, double scale,
                                            int threads = 1);
@@ -53,7 +53,7 @@ struct MapLayer {
 // a time may use a cache.
 class MapCache {
   public:
-    // Returns the layer, which is valid until the next call. A new layer is made if the geometry of
+    // Returns the layer. It is valid until the next call. A new layer is made if the geometry of
     // the grid, the view of the ground, the size or the scale differs from the last call.
     [[nodiscard]] Result<const MapLayer*> get(const grid::GridSpec& spec,
                                               const ViewGeometry& geometry, double scale,
@@ -62,13 +62,13 @@ class MapCache {
 
   private:
     grid::GridSpec spec_;
-    std::vector<double> view_;  // where points of the ground are, which identifies a view
+    std::vector<double> view_;  // pictures of some ground points, which identify the view
     MapLayer layer_;
     int times_made_ = 0;
 };
 
-// Draws thin lines over a casing that separates them from echo. The cities are marks
-// (render/map/map_marks.h).
+// Draws thin lines. A casing around them separates them from echo. Cities are drawn elsewhere, as
+// marks (render/map/map_marks.h).
 void draw_map(Canvas& canvas, const MapLayer& layer, const Shades& shades, double scale,
               Point offset = {});
 

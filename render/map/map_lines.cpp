@@ -13,7 +13,7 @@ namespace {
 constexpr int ring_vertices = 240;
 constexpr int most_rings = 40;
 
-// A site and its surroundings, in meters of the picture's ground.
+// A site with its surroundings, in meters on the picture's ground.
 class SiteMap {
   public:
     SiteMap(const grid::GridSpec& spec, const grid::SitePosition& site)
@@ -23,8 +23,8 @@ class SiteMap {
 
     [[nodiscard]] GroundPoint site() const { return site_; }
 
-    // Returns the point at an azimuth and a distance from the site. An azimuthal equidistant map
-    // shows a ring nearly as a circle; other maps do not.
+    // Returns the point at an azimuth and a distance from the site. On an azimuthal equidistant map
+    // a ring of such points is nearly a circle; on other maps it is not.
     [[nodiscard]] GroundPoint about(double azimuth_rad, double arc_m) const {
         if (grid::facts_of(map_.spec().projection).is_polar) {
             return {site_.x_m + arc_m * std::sin(azimuth_rad),
@@ -54,7 +54,7 @@ bool is_finite(Point p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-// Draws a closed line, without the parts that are not visible.
+// Draws a closed line. Leaves out the parts that are not visible.
 void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLines& lines,
                  double line_width, Rgba8 color) {
     std::vector<Point> run;
@@ -75,7 +75,8 @@ void draw_closed(Canvas& canvas, const std::vector<Point>& points, const MapLine
 }
 
 std::vector<Point> ground_outline(const MapLines& lines) {
-    // Each edge has many points, because a part of an edge that passes the camera may be visible.
+    // Divide each edge into many parts, because some of them may be visible even if the edge passes
+    // the camera.
     constexpr int parts = 32;
     std::vector<Point> outline;
     const auto corners = ground_corners(*lines.geometry);
@@ -151,7 +152,7 @@ void draw_rings(Canvas& canvas, const MapLines& lines) {
     const GroundPoint site = map.site();
     const double reach = std::hypot(lines.geometry->half_x_m(), lines.geometry->half_y_m()) +
                          std::hypot(site.x_m, site.y_m);
-    // If the ground extends past the camera, its visible corners are nearly its outline.
+    // If the ground extends past the camera, the visible corners are nearly its outline.
     std::vector<Point> ground;
     for (const Point& p : ground_outline(lines)) {
         if (is_finite(p)) ground.push_back({p.x + lines.left, p.y + lines.top});

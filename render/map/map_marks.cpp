@@ -14,7 +14,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr double text_size = 10;
-// The look of town names, in three steps by the size of the town.
+// The look of towns' names. There are three steps, by the size of the town.
 struct TownLook {
     int least_population;
     double size;
@@ -22,10 +22,10 @@ struct TownLook {
 };
 constexpr std::array towns = {TownLook{400'000, 10.5, true}, TownLook{100'000, 9.5, true},
                               TownLook{0, 8.5, false}};
-// If there are more sites than this, their names are small and pale.
+// With more sites than this, their names are small and pale.
 constexpr std::size_t few_sites = 3;
 constexpr double north_radius = 17;
-// Bounds of the steps in the scale of heights: 1 to 10 km, 5 to 50 thousand feet.
+// Limits of the steps in the scale of heights: 1 to 10 km, or 5 to 50 thousand feet.
 constexpr double least_step_m = 1000;
 constexpr double most_step_m = 15300;
 
@@ -68,14 +68,15 @@ class Planner {
         return std::isfinite(p.x_m) && std::isfinite(p.y_m) &&
                std::abs(p.x_m) < geometry_.half_x_m() && std::abs(p.y_m) < geometry_.half_y_m();
     }
-    // Returns true if the ground of the grid is at a pixel.
+    // Returns true if the ground at a pixel is that of the grid.
     [[nodiscard]] bool over_grid(Point p) const {
         const auto ground = geometry_.ground({p.x, p.y});
         return ground && inside_grid(*ground);
     }
     static Rect about(Point p, double half) { return {p.x - half, p.y - half, 2 * half, 2 * half}; }
 
-    // Returns the text if its place is free, and takes the place.
+    // Takes the place of a text if it is free, and returns the text. Returns none if it is not
+    // free.
     std::optional<MarkText> claim(const std::string& text, Point left_baseline, double size,
                                   bool bold, Rgba8 color) {
         const double halo = scaled(1);
@@ -88,7 +89,7 @@ class Planner {
     }
 
     // Chooses the corner for the arrow and the bar: the first corner without a site, or else the
-    // first corner. Sites under the arrow or the bar are not drawn.
+    // first corner. A site under the arrow or the bar is not drawn.
     void plan_corner() {
         const double w = scaled(2 * north_radius + 8);
         const double h = scaled(2 * north_radius + 28);
@@ -157,7 +158,7 @@ class Planner {
         return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
     }
 
-    // Returns the meters on WGS84 for each pixel, across the middle of the picture.
+    // Returns how many meters on WGS84 a pixel covers, across the middle of the picture.
     [[nodiscard]] std::optional<double> metres_per_pixel() const {
         const double x = 0.5 * geometry_.width();
         const double y = 0.5 * geometry_.height();
@@ -174,7 +175,7 @@ class Planner {
         return apart_m / (2 * reach);
     }
 
-    // Makes the scale bar; its place is set later.
+    // Makes the scale bar. Its place is set later.
     [[nodiscard]] std::optional<ScaleBar> make_scale_bar() const {
         const auto metres = metres_per_pixel();
         if (!metres) return std::nullopt;
@@ -227,8 +228,8 @@ class Planner {
     }
 
     // Places the scale of heights at the leftmost upright edge of the box in the picture. If two
-    // edges qualify, the scale is at the farther edge, which is higher in the picture. The edge is
-    // an outline of the box, so no echo is ever behind it.
+    // edges are equally far left, takes the farther one, which is higher in the picture. The edge
+    // is an outline of the box, so no echo is ever behind it.
     void plan_heights() {
         std::optional<GroundPoint> edge;
         Point edge_at;
@@ -272,8 +273,8 @@ class Planner {
         marks_.heights = std::move(heights);
     }
 
-    // Places the distances on the rings where the rings come nearest to the viewer, which is lowest
-    // in the picture.
+    // Writes the distances on the rings, at the place where each ring is nearest to the viewer.
+    // This is the lowest place in the picture.
     void plan_distances() {
         const double size = scaled(text_size);
         for (int i = 1; i <= 40; ++i) {
@@ -299,7 +300,7 @@ class Planner {
         const double dot = scaled(2.6);
         const double apart = scaled(38);
         for (const MapPlace& city : lines_.map->cities) {
-            // Cities keep a distance from each other, so that the map stays quiet.
+            // Keep a distance between cities, so that the map stays quiet.
             const bool crowded =
                 std::any_of(marks_.cities.begin(), marks_.cities.end(), [&](const Point& other) {
                     return std::hypot(other.x - city.at.x, other.y - city.at.y) < apart;
@@ -318,7 +319,8 @@ class Planner {
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
                                           Point{middle, city.at.y - scaled(3.5) - 0.3 * size},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
-            // A name across the edge of the grid looks cut by it, so such corners come last.
+            // Try corners where a name would cross the edge of the grid last, because the edge
+            // seems to cut the name.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});
             });

@@ -8,10 +8,10 @@
 // site is still drawn, but the mark of a city is not. Everything is inside the picture, and plans
 // are in pixels of the picture.
 //
-// The length of the scale bar is valid across the middle of the picture. The length is 1, 2 or 5
-// times a power of ten, measured along WGS84 (to 1 % at worst). There is no bar if the middle of
-// the view shows no ground. Planning asks the view only for the places of points and the ground
-// under pixels.
+// The length of the scale bar is true across the middle of the picture. It is 1, 2 or 5 times a
+// power of ten, measured along WGS84 (to 1 % at worst). If the middle of the view shows no ground,
+// there is no bar. Planning asks the view only for the places of points, and for the ground under
+// pixels.
 //
 // Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once
@@ -40,7 +40,7 @@ struct ScaleBar {
     Rect box;  // of bar and text
 };
 
-// A scale of heights, at an upright edge of the grid's box with no echo behind it.
+// A scale of heights. It is at an upright edge of the grid's box that has no echo behind it.
 struct HeightScale {
     Point bottom, top;
     std::vector<Point> ticks;

@@ -9,21 +9,21 @@
 namespace stormcellar::render {
 namespace {
 
-// A panel a little wider than tall looks best.
+// Panels that are a little wider than tall look best.
 constexpr double best_aspect = 1.1;
 constexpr int least_panel_width = 180;
 constexpr int least_panel_height = 150;
-// Lengths at the scale of a panel.
+// Lengths for a panel, in pixels at scale 1.
 constexpr double title_height = 20;
 constexpr double legend_height = 50;
 constexpr double gap = 8;
-// Scale of lines and letters in a panel, relative to the whole picture.
+// The scale of lines and letters in a panel, as a share of the scale of the whole picture.
 constexpr double panel_scale = 0.62;
 
 struct Grid {
     int columns = 1, rows = 1;
-    // The place of the first panel, the size of each in whole pixels, and the gap between two in a
-    // row.
+    // The place of the first panel, the size of each panel in whole pixels, and the gap between two
+    // panels.
     double left = 0, top = 0, width = 0, height = 0, between = 0;
 
     [[nodiscard]] Rect cell(int index) const {
@@ -53,7 +53,7 @@ int panels_in_a_row(int count, int width, int height) {
     for (int columns = 1; columns <= count; ++columns) {
         const int rows = (count + columns - 1) / columns;
         const double aspect = static_cast<double>(width) / columns / height * rows;
-        // Empty places count against an arrangement.
+        // Each empty place makes an arrangement worse.
         const double empty = static_cast<double>(rows * columns - count) / count;
         const double worth = std::abs(std::log(aspect / best_aspect)) + empty;
         if (worth >= least) continue;

@@ -6,12 +6,13 @@
 namespace stormcellar::render {
 namespace {
 
-// A picture is wide above the first ratio of width to height, and tall below the second.
+// A picture is wide if its ratio of width to height is above the first number, and tall if it is
+// below the second.
 constexpr double least_wide = 1.2;
 constexpr double most_tall = 0.72;
 constexpr double most_scale = 16;
 
-// Lengths at scale 1, and the size of the picture that has this scale.
+// Lengths at scale 1, and the size of a picture whose scale is 1.
 struct Measures {
     double width, height;
     double header, footer, panel, band;

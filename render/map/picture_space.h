@@ -2,8 +2,8 @@
 // print.
 //
 // There are three shapes. A wide picture has its colors at the right. Square and tall pictures have
-// the colors below, so that the map has the whole width. A tall picture also has more lines in its
-// title. All lengths grow with the picture.
+// their colors below, so that the map has the whole width. A tall picture also has more lines in
+// its title. All lengths grow with the size of the picture.
 //
 // Threads   Plain values and a pure function.
 #pragma once
@@ -12,7 +12,7 @@ namespace stormcellar::render {
 
 enum class PictureShape { wide, square, tall };
 
-// Letters never get smaller than at this scale, not even in panels.
+// Letters are never smaller than at this scale, not even in panels.
 inline constexpr double least_text_scale = 0.85;
 
 // Lengths are in pixels.

@@ -18,8 +18,7 @@ bool file_has_a_view(const SceneOptions& options) {
     });
 }
 
-// Returns true if a view shows nearly the same part of the grid as another, from nearly the same
-// place.
+// Returns true if two views show nearly the same part of the grid from nearly the same place.
 bool is_near(const FittedView& one, const FittedView& other) {
     if (one.has_echo != other.has_echo) return false;
     if (!one.has_echo) return true;
@@ -62,7 +61,7 @@ bool chooses_light(const SceneOptions& options) {
 Result<FittedView> fit_picture(const EchoOutline& outline, const grid::BrickView& view,
                                const FrameFacts& facts, const SceneOptions& options, Scene& scene,
                                bool orbits, std::optional<FittedView>* last) {
-    // By default, echo that is too weak for the usual colors gets the colors of clear air.
+    // By default, echo that is too weak for the usual colors gets the colors for clear air.
     if (scene.colors == smooth_color_table(level2::Moment::ref) && options.colors.empty() &&
         is_clear_air(outline)) {
         scene.colors = clear_air_colors();

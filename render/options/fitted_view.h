@@ -1,9 +1,9 @@
-// render/options/fitted_view.h -- fits the options that the user did not specify to the echo:
+// render/options/fitted_view.h -- fits to the echo those options that the user did not give:
 // camera, exaggeration, opacity, sun and light of a volume's picture (render/view/fitted_camera.h).
 //
-// Typed options keep their values. The place of the camera is not fitted if the user gives a place,
-// a point to look at, a zoom or parallel rays, because each of these determines what is in the
-// picture. If a scene file has any key of [camera], [light] or [volume], no part of the view is
+// Options that were typed keep their values. The place of the camera is not fitted if the user
+// gives a place, a point to look at, a zoom or parallel rays, because each of these determines what
+// is in the picture. If a scene file has any key of [camera], [light] or [volume], nothing is
 // fitted; keys that the file lacks then have their usual defaults.
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace stormcellar::render {
 
 [[nodiscard]] FitParts parts_to_fit(const SceneOptions& options);
-// Returns true if anything of a picture with these options depends on the echo.
+// Returns true if a picture with these options depends on the echo.
 [[nodiscard]] bool fits_anything(const SceneOptions& options);
 // Returns true if neither the command line nor a scene file says how the volume is lit.
 [[nodiscard]] bool chooses_light(const SceneOptions& options);
 
-// Fits the scene to the echo of all grids that will be seen; `view` and `facts` belong to one of
-// these grids. `orbits` says that the camera will move around the echo. If `last` holds a view that
-// is near the fitted view, the scene gets that view instead. The view of the scene is then stored
+// Fits the scene to the echo of all grids that will be shown; `view` and `facts` are those of one
+// of these grids. `orbits` is true if the camera will move around the echo. If `last` holds a view
+// that is near the fitted one, the scene gets that view instead. Then stores the view of the scene
 // in `last`. Errors: those of fit_scene().
 [[nodiscard]] Result<FittedView> fit_picture(const EchoOutline& outline,
                                              const grid::BrickView& view, const FrameFacts& facts,

@@ -28,7 +28,8 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-// The two parts of "Moore, OK", prepared for comparison. The region is empty if there is no comma.
+// The two parts of a text such as "Moore, OK", prepared for comparison. The region is empty if
+// there is no comma.
 struct Asked {
     std::string name, region;
 };
@@ -74,7 +75,7 @@ std::string list_of(const Candidates& found) {
     std::vector<std::string> names;
     for (const NamedPlace& place : found) {
         std::string name = full_name(place);
-        // If places share a name and a state, their coordinates tell them apart.
+        // If several places have the same name and state, add their coordinates.
         if (std::ranges::count(found, place.region, &NamedPlace::region) > 1)
             name += fmt::format(" ({:.2f},{:.2f})", place.latitude_deg, place.longitude_deg);
         names.push_back(std::move(name));
@@ -98,14 +99,14 @@ Error unknown(std::string_view option, std::string_view text, const Asked& asked
         return Error{ErrorCode::bad_argument,
                      fmt::format("{}: there is no place '{}'{}", option, printable(text), meant)};
     };
-    // If a town of this name exists elsewhere, the state is wrong or is not written with two
+    // If there is a town of this name elsewhere, the state is wrong, or it is not written with two
     // letters.
     if (!asked.region.empty()) {
         const Candidates elsewhere = towns_called({asked.name, {}});
         if (!elsewhere.empty()) return said("; there is " + list_of(elsewhere));
     }
     std::vector<std::string> names;
-    // Suggest a similar name, first among the towns of the given state and then among all towns.
+    // Suggest a similar name: first from the given state, and then from all states.
     for (const bool in_state : {true, false}) {
         if (in_state && asked.region.empty()) continue;
         names.clear();

@@ -1,11 +1,10 @@
-// render/options/named_place.h -- reads places as people write them: LAT,LON, a town or a radar.
+// render/options/named_place.h -- reads places as people write them: LAT,LON, a town, or a radar.
 //
-// Every option that takes a place uses these functions.
+// All options that take a place use these functions.
 //
-// Threads   Any thread, once the options are read.
-// Errors    bad_argument. The message names the option. If several places have the name, the
-//           message lists them. If the name is unknown, the message suggests a similar name, if
-//           there is one.
+// Threads   Any thread may call them once the options are read.
+// Errors    bad_argument. The message names the option. If several places have the name, it lists
+//           them. If the name is unknown, it suggests a similar name, if there is one.
 #pragma once
 
 #include <string>
@@ -21,13 +20,13 @@ namespace stormcellar::render {
 inline constexpr std::string_view place_for_help =
     "LAT,LON in degrees, a town as in \"Moore, OK\", or a radar as in KTLX";
 
-// Reads "35.3,-97.5", "Moore, OK" or "KTLX". A town without its state is accepted if only one town
-// has the name, or only one of 100,000 people and more. If no town has the name but the place of a
-// radar does, the result is that radar.
+// Reads a place such as "35.3,-97.5", "Moore, OK" or "KTLX". A town may lack its state if it is the
+// only one of this name, or the only one with 100,000 people or more. If no town has the name but
+// the place of a radar does, returns that radar.
 [[nodiscard]] Result<grid::GeoPoint> parse_place(std::string_view option, const std::string& text);
 
-// Reads two places with a semicolon between them: "Moore, OK; KINX". Four numbers may be separated
-// by commas alone: "35,-98.5,35.6,-96.5".
+// Reads two places with a semicolon between them, as in "Moore, OK; KINX". Four numbers may have
+// only commas between them: "35,-98.5,35.6,-96.5".
 [[nodiscard]] Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
                                                                    const std::string& text);
 

@@ -1,8 +1,8 @@
-// render/options/option_text.h -- reads the value of a picture's option from the text of a command
-// line or an address.
+// render/options/option_text.h -- reads the value of a picture's option from a text: from a command
+// line or from an address.
 //
-// Threads   Pure, except that they change the given settings.
-// Errors    bad_argument; the message begins with the name under which the option was given.
+// Threads   Pure, except that they change the settings that they are given.
+// Errors    bad_argument. The message begins with the name by which the option was given.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ namespace stormcellar::render {
 [[nodiscard]] Result<std::vector<double>> numbers_of(const std::string& option,
                                                      const std::string& text, std::size_t count);
 
-// The functions below set a value from a text. They refuse places out of range, unknown names and
-// texts that are not numbers, but they accept a single number out of its range, which scene_of()
-// refuses later.
+// These functions set a value from a text. They refuse places out of range, unknown names, and
+// texts that are not numbers. They accept a single number that is out of range; scene_of() refuses
+// it later.
 [[nodiscard]] Status take_text(const NumbersValue& value, const std::string& option,
                                const std::string& text, PictureSettings to);
 [[nodiscard]] Status take_text(const TextValue& value, const std::string& option,
@@ -31,7 +31,7 @@ namespace stormcellar::render {
                                const std::string& text, PictureSettings to);
 [[nodiscard]] Status take_text(const WholeValue& value, const std::string& option,
                                const std::string& text, PictureSettings to);
-// A flag is set by an empty text, 1 or true, and cleared by 0 or false.
+// Sets a flag from an empty text, 1 or true. Clears it from 0 or false.
 [[nodiscard]] Status take_text(const FlagValue& value, const std::string& option,
                                const std::string& text, PictureSettings to);
 

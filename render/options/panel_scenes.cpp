@@ -39,7 +39,7 @@ Result<std::vector<PanelScene>> panel_scenes(
         }
     }
     SceneOptions panel = options;
-    panel.panels = list;  // options of one panel's moment are no mistake in the others
+    panel.panels = list;  // an option that only one panel's moment uses is no mistake
     panel.colors.clear();
     const auto is_given = [&](const PictureOption& row) {
         return contains(options.typed, row) || contains(options.in_file, row);

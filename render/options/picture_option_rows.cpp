@@ -13,8 +13,8 @@ namespace {
 using To = PictureSettings;
 
 constexpr double per_km = option_units_per_km;
-// A scene file refuses a direction beyond ten turns, which must be a mistake; the command line
-// accepts any.
+// The range of directions in a scene file. A direction beyond ten turns must be a mistake. The
+// command line accepts every direction.
 constexpr NumberRange turns_deg{-3600, 3600};
 
 constexpr ProductUse by_volume{.only = Product::volume};
@@ -347,7 +347,8 @@ constexpr std::array option_rows{
                           "follow in reverse, down to the second"},
 };
 
-// Returns the row of a key. `key` is a constant of this file, so the row exists.
+// Returns the row that has this key. `key` is always a constant of this file, so there is such a
+// row.
 const PictureOption& row_of(std::string_view key) {
     return *std::ranges::find(option_rows, key, &PictureOption::key);
 }

@@ -1,8 +1,8 @@
-// render/options/picture_option_values.h -- checks and sets the values of picture options that need
-// more than a field. The table (picture_option_rows.cpp) names these functions.
+// render/options/picture_option_values.h -- functions for picture options whose value is more than
+// a field. They check and set it; the table (picture_option_rows.cpp) names them.
 //
-// Threads   Pure, except that they change the given settings.
-// Errors    bad_argument; the message says why a value is refused, without the option's name.
+// Threads   Pure, except that they change the settings that they are given.
+// Errors    bad_argument. The message gives the reason for the refusal without the option's name.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +26,8 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status set_units(PictureSettings to, const std::string& names);
 [[nodiscard]] std::string units_set(PictureSettings to);
 
-// Reads the two ends of a section from a text of numbers or names of places. The message names the
-// option.
+// Reads the two ends of a section from a text with numbers or with names of places. An error's
+// message names the option.
 [[nodiscard]] Result<std::vector<double>> read_section(const std::string& option,
                                                        const std::string& text);
 
@@ -45,10 +45,10 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_motion(const std::string& text);
 [[nodiscard]] std::string known_smoothings();
 
-// Returns true if colors come from a file and not from a table by name.
+// Returns true if the colors are in a file. Returns false if they are a table by name.
 [[nodiscard]] bool is_color_file(const std::string& name);
-// Returns the name of a table unchanged, and resolves the name of a file in the directory of the
-// scene file.
+// Returns the name of a table unchanged. Resolves the name of a file in the directory of the scene
+// file.
 [[nodiscard]] std::string colors_beside(const std::filesystem::path& directory,
                                         const std::string& name);
 

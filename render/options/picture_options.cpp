@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Completes the help of an option with the ends of its range or its possible texts.
+// Completes the help of an option. Writes the ends of its range, or its possible texts, into it.
 struct HelpOf {
     std::string help;
     std::string operator()(const WholeValue& value) const { return with(value.range); }

@@ -1,10 +1,11 @@
 // render/options/picture_options.h -- the table of the options of a picture.
 //
-// Each row is one option: its name on the command line, its key in a scene file, the values that it
-// takes, the products that use it, its help, and the setting that it sets. The command line, scene
-// files, the addresses of the data server and the check of which products use an option
-// (scene_options.h) read this table; --help, the manual pages and the completions of shells come
-// from the command line. The rows are in picture_option_rows.cpp.
+// Each row is one option. It has the option's name on the command line, its key in a scene file,
+// the values that it takes, the products that use it, its help, and the setting that it sets. This
+// table is read by the command line, by the reader of scene files, for the addresses of the data
+// server, and to check which products use an option (scene_options.h). --help, the manual pages and
+// the completions of shells are made from the command line. The rows are in
+// picture_option_rows.cpp.
 //
 // Threads   The table is constant.
 #pragma once
@@ -26,21 +27,21 @@ namespace stormcellar::render {
 struct LoopChoices;
 struct SceneOptions;
 
-// The objects that the options set.
+// The objects that options set.
 struct PictureSettings {
     SceneOptions& options;
     Scene& scene;       // the scene of the options
     LoopChoices* loop;  // null if only options of the scene are set
 };
 
-// Tells whether the parser or the check of the scene refuses an option whose number is out of
-// range. The reader of scene files always refuses such a number, with its line.
+// Says who refuses a number of the option that is out of range: the parser, or the check of the
+// scene. The reader of scene files always refuses such a number, and names its line.
 enum class Checked { with_the_scene, by_the_parser };
 
-// A flag on the command line, true or false in a scene file.
+// A flag on the command line. In a scene file it is true or false.
 struct FlagValue {
     bool* (*field)(PictureSettings) = nullptr;
-    bool is_reversed = false;  // the key means the opposite of the flag
+    bool is_reversed = false;  // the key of the scene file means the opposite of the flag
 };
 struct WholeValue {
     int* (*field)(PictureSettings) = nullptr;
@@ -50,11 +51,12 @@ struct WholeValue {
 struct NumberValue {
     double* (*field)(PictureSettings) = nullptr;
     NumberRange range{};  // in the unit of the option
-    double unit = 1;      // units of the field in a unit of the option: 1000 for m and km
+    double unit = 1;      // fields per unit of the option: 1000 for km and m
     bool or_zero = false;
     Checked checked = Checked::with_the_scene;
 };
-// A number of a NumbersValue, which is "35,-98" on the command line and an array in a scene file.
+// One of several numbers. Together they are written "35,-98" on the command line, and as an array
+// in a scene file.
 struct NumberPlace {
     std::string_view name;
     NumberRange range;
@@ -62,21 +64,21 @@ struct NumberPlace {
 struct NumbersValue {
     std::span<const NumberPlace> places{};
     void (*set)(PictureSettings, std::span<const double>) = nullptr;
-    // Reads the numbers of the command line; null: they are separated by commas.
+    // Reads the numbers on the command line. Null: commas separate them.
     Result<std::vector<double>> (*read)(const std::string& option,
                                         const std::string& text) = nullptr;
 };
 struct TextValue {
     std::string* (*field)(PictureSettings) = nullptr;
-    Status (*check)(const std::string&) = nullptr;  // its message says why a text is refused
-    // Resolves a text of a scene file in `directory`; null: the text is used unchanged.
+    Status (*check)(const std::string&) = nullptr;  // its message gives the reason for a refusal
+    // Resolves a text of a scene file in `directory`. Null: the text is used as it is.
     std::string (*beside)(const std::filesystem::path& directory,
                           const std::string& text) = nullptr;
-    std::string (*known)() = nullptr;  // the possible texts, for {} in the help; null: any text
+    std::string (*known)() = nullptr;  // possible texts, for {} in the help; null: every text is
     bool (*is_file)(const std::string&) = nullptr;  // true if the text is a file; null: never
 };
-// "gradient,shadow" on the command line, an array of texts in a scene file. An empty array is
-// "none".
+// Several names. They are written "gradient,shadow" on the command line, and as an array of texts
+// in a scene file. An empty array means "none".
 struct NamesValue {
     Status (*set)(PictureSettings, const std::string& names) = nullptr;
     std::string (*get)(PictureSettings) = nullptr;
@@ -84,8 +86,8 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: only one product, all products but one, products with a
-// threshold, maps, or, if none of these is set, all products.
+// The products that use an option: only one product; all but one; products with a threshold; maps.
+// If none of these is set, all products use it.
 struct ProductUse {
     std::optional<Product> only{};
     std::optional<Product> all_but{};
@@ -97,7 +99,7 @@ struct ProductUse {
                (!with_threshold || facts_of(product).threshold_dbz != nullptr) &&
                (!maps || is_map(product));
     }
-    // Returns these products as a text: "cappi", "any product but section".
+    // Returns these products as a text, such as "cappi" or "any product but section".
     [[nodiscard]] std::string text() const;
 };
 
@@ -109,9 +111,9 @@ struct PictureOption {
     std::string_view old_key{};
     PictureValue value{};
     ProductUse used_by{};
-    std::string_view help{};  // in it, {} or {0} and {1} stand for the ends of the range
+    std::string_view help{};  // in it, {} or {0} and {1} are replaced by the ends of the range
 
-    // Returns true for the options of [loop], which set `loop`. All others set the scene.
+    // Returns true for an option of [loop], which sets `loop`. All other options set the scene.
     [[nodiscard]] bool is_of_loop() const { return section == "loop"; }
     [[nodiscard]] bool is_used_by(Product product) const { return used_by.includes(product); }
 };
@@ -119,7 +121,7 @@ struct PictureOption {
 // Returns the options in the order of --help.
 [[nodiscard]] std::span<const PictureOption> picture_options();
 
-// The options that other code asks about.
+// Options that code outside the table asks for by function.
 [[nodiscard]] const PictureOption& slices_option();
 [[nodiscard]] const PictureOption& section_option();
 [[nodiscard]] const PictureOption& moment_option();
@@ -130,7 +132,7 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& width_option();
 [[nodiscard]] const PictureOption& height_option();
 
-// The parts of the view of a volume that are fitted to the echo unless an option sets them
+// The parts of a volume's view that are fitted to the echo, unless an option sets them
 // (render/options/fitted_view.h).
 enum class ViewPart {
     azimuth,
@@ -144,16 +146,16 @@ enum class ViewPart {
     opacity
 };
 [[nodiscard]] const PictureOption& option_of(ViewPart part);
-// Returns the text that help gives as the default of an option with a ViewPart; empty for any other
-// option.
+// Returns the text that help shows as the default of an option with a ViewPart. Returns an empty
+// text for other options.
 [[nodiscard]] std::string_view default_of_the_view(const PictureOption& option);
-// Returns true for an option that places or moves the camera of a loop and so replaces the camera
-// keys of a scene file.
+// Returns true for an option that places or moves the camera of a loop. Such an option replaces the
+// camera keys of a scene file.
 [[nodiscard]] bool moves_camera(const PictureOption& option);
 
-// Returns the option as a parameter of an address: "tilt" for "--tilt".
+// Returns the option's name as a parameter of an address, such as "tilt" for "--tilt".
 [[nodiscard]] std::string_view parameter_of(const PictureOption& option);
-// Returns the key as messages name it: "[volume] slices".
+// Returns the key as messages write it, such as "[volume] slices".
 [[nodiscard]] std::string key_of(const PictureOption& option);
 [[nodiscard]] std::string help_of(const PictureOption& option);
 

@@ -25,8 +25,8 @@ Status unused(std::string_view name, const PictureOption& row, Product product) 
                 row.used_by.text(), product_name(product));
 }
 
-// Checks that the product uses all given options. Errors: bad_argument; the message names the
-// option or the key, and the products that use it.
+// Checks that the product uses all options that are given. Errors: bad_argument; the message names
+// the option or the key, and the products that use it.
 Status check_uses(Product product, const SceneOptions& options) {
     const auto files = product_from_name(options.file_product);
     for (const PictureOption& row : picture_options()) {
@@ -38,7 +38,7 @@ Status check_uses(Product product, const SceneOptions& options) {
     return {};
 }
 
-// The number of a row that is out of its range; none if all are within.
+// A row whose number is out of range.
 struct OutOfRange {
     PictureSettings to;
     std::optional<std::string> operator()(const WholeValue& value) const {
@@ -47,7 +47,7 @@ struct OutOfRange {
     std::optional<std::string> operator()(const NumberValue& value) const {
         NumberRange range = value.range;
         const double* const field = value.field(to);
-        // Only a camera with a place of its own may look up.
+        // Only a camera that has a place may look up.
         const bool looks_down = field == &to.scene.camera.tilt_deg && !to.scene.camera.eye;
         if (looks_down) range = limits::tilt_deg;
         return said(range, *field / value.unit, value.or_zero);
@@ -64,12 +64,12 @@ struct OutOfRange {
     }
 };
 
-// Checks the numbers. Errors: bad_argument; the message names the option, or the key if a scene
-// file has the number.
+// Checks that numbers are in their ranges. Errors: bad_argument; the message names the option, or
+// the key if a scene file has the number.
 Status check_ranges(SceneOptions options) {
     const PictureSettings to{options, options.scene, nullptr};
     for (const PictureOption& row : picture_options()) {
-        // A value that was not given may be out of range, because it means the default.
+        // A value that was not given may be out of range, because that means the default.
         const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
         if (row.is_of_loop() || !is_given) continue;
         const auto said = std::visit(OutOfRange{to}, row.value);
@@ -81,7 +81,7 @@ Status check_ranges(SceneOptions options) {
     return {};
 }
 
-// Returns the moment to draw, which is VELD for VEL if the options ask for dealiasing.
+// Returns the moment to draw. For VEL this is VELD if the options ask for dealiasing.
 Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOptions& options) {
     const auto rung = retrieve::dealiasing_from_name(options.dealias);
     if (!rung) return fail(ErrorCode::bad_argument, "{}", rung.error().message);
@@ -101,7 +101,8 @@ Result<level2::Moment> dealiased_moment(level2::Moment moment, const SceneOption
                 spelled(dealias_option(), options), level2::moment_name(moment));
 }
 
-// Refuses a storm motion that the moment does not need. Panels have several moments.
+// Refuses a storm motion if the moment does not need one. Panels have several moments, so they are
+// not refused.
 Status check_storm_motion(level2::Moment moment, const SceneOptions& options) {
     const auto motion = retrieve::motion_choice_from(options.storm_motion);
     if (!motion) return fail(ErrorCode::bad_argument, "{}", motion.error().message);
@@ -152,8 +153,8 @@ Result<Scene> scene_of(const SceneOptions& options) {
         return fail(ErrorCode::bad_argument,
                     "a sweep is named by its elevation or by its number; give only one of them");
     }
-    // If nothing chooses colors, a picture uses the table without classes. A scene file keeps the
-    // defaults of the time when it was written.
+    // If nothing chooses colors, a picture has the table without classes. But a scene file keeps
+    // the defaults of the time when it was written.
     const bool has_own_colors = facts_of(scene.product).colors != nullptr;
     if (options.colors.empty() && options.file_product.empty() && !has_own_colors) {
         scene.colors = smooth_color_table(scene.moment);
@@ -166,7 +167,7 @@ Result<Scene> scene_of(const SceneOptions& options) {
     }
     scene.smooth =
         options.smooth.empty() ? options.file_product.empty() : options.smooth == "cubic";
-    // A camera with a place of its own looks in perspective.
+    // A camera that has a place looks in perspective.
     if (scene.camera.eye && scene.camera.field_of_view_deg == 0) {
         scene.camera.field_of_view_deg = 60;
     }

@@ -1,7 +1,7 @@
-// render/options/scene_options.h -- the options of a picture, and the scene that they make.
+// render/options/scene_options.h -- the options of a picture, and the scene that is made from them.
 //
-// The command line, scene files and the addresses of the data server set these options through the
-// table of picture_options.h. All of them get the scene from scene_of(), so that the same options
+// The command line, scene files and the addresses of the data server set these options, through the
+// table of picture_options.h. All of them then get the scene from scene_of(). So the same options
 // give the same picture.
 //
 // Threads   Plain data and pure functions.
@@ -25,7 +25,7 @@ namespace stormcellar::render {
 
 inline constexpr NumberRange thread_range{0, 1024};
 
-// The spelling of an option in messages.
+// The form in which messages write the name of an option.
 enum class Spelling { option, parameter };  // "--tilt", "tilt"
 
 // The settings of a picture, from its options and from a scene file (picture_options.h).
@@ -38,13 +38,13 @@ struct SceneOptions {
     std::string theme{theme_name(Theme::dark)};
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment
-    std::string smooth;     // cubic or none; empty: cubic, but none for a scene file
+    std::string smooth;     // cubic or none; empty: cubic, or none for a scene file
     std::string time_zone;  // IANA; empty: the zone of the machine
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
-    Scene scene;      // set directly by options; not complete, so use scene_of()
-    // The typed options, the options of the scene file, and the product of that file, which is
-    // empty if there is no file.
+    Scene scene;      // incomplete: options set it directly; use scene_of()
+    // The options that were typed, the options in the scene file, and the product in that file; it
+    // is empty if there is no file.
     ChosenOptions typed;
     ChosenOptions in_file;
     std::string file_product;
@@ -55,15 +55,15 @@ struct SceneOptions {
 // The settings of the rows of [loop].
 struct LoopChoices {
     int last = 0;    // use only this many of the newest grids; 0: all
-    int frames = 0;  // spread over the grids; 0: one for each, or enough for the camera's path
-    double orbit_deg = 0;  // how far the camera moves around the grid during the loop
+    int frames = 0;  // number of frames; 0: one for each grid, or enough for the camera's path
+    double orbit_deg = 0;  // angle by which the camera moves around the grid during the loop
     bool ping_pong = false;
     bool all_elevations = false;  // for a ppi: a frame for each elevation of each volume
     bool repeats = false;         // for a ppi: a frame for each sweep of the elevation
     AnimationOptions animation;
 };
 
-// Returns the requested scene, validated. Errors: bad_argument; the message names the invalid
+// Returns the requested scene. It is valid. Errors: bad_argument; the message names the invalid
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
@@ -83,16 +83,16 @@ struct LoopChoices {
 // Returns the note of a grid that has the largest values since a time (FrameFacts::since).
 [[nodiscard]] std::string track_note(UtcTime since);
 
-// Returns how the moments of a picture are derived that come from raw files. The options must be
-// those of a valid scene.
+// Returns the options for deriving the moments of a picture that is made from raw files. `options`
+// must be those of a valid scene.
 [[nodiscard]] retrieve::DerivedOptions derived_options_of(const SceneOptions& options);
 
 [[nodiscard]] int thread_count(const SceneOptions& options);
 
 // Returns the facts of a grid for its labels. The local time is in the zone `time_zone` (IANA), or,
-// if empty, in the zone of the machine. The local time is left out if the zone is UTC or not known.
-// The age of the newest radial at `now` is given for grids younger than an hour, because for an
-// archive it would say nothing about the radar.
+// if that is empty, in the zone of the machine. It is left out if the zone is UTC or is not known.
+// The facts have the age of the newest radial at `now` only if the grid is younger than an hour;
+// for an archive, it would say nothing about the radar.
 [[nodiscard]] FrameFacts frame_facts_of(const std::string& domain,
                                         const cache::GridDescription& description,
                                         const std::string& time_zone, UtcTime now = now_utc());

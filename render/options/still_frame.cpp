@@ -14,7 +14,7 @@ Metadata metadata_of_still(const StillSource& source, const Scene& scene,
     const UtcTime time = source.description.time;
     const PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
     if (writing.format.encode_map == nullptr) return metadata_of(told, source.description, scene);
-    // Data stay in the units of the grid, and a map as data has no picture size.
+    // Data must be in the units of the grid. A map as data has no picture size.
     Scene in_grid_units = scene;
     in_grid_units.units = {};
     Metadata metadata = metadata_of(told, source.description, in_grid_units);

@@ -1,11 +1,11 @@
-// render/options/still_frame.h -- makes one still of one grid: fits unspecified options to the
-// echo, draws the picture and encodes it with its metadata.
+// render/options/still_frame.h -- makes a still of one grid: fits options that are not given to the
+// echo, draws the picture, and encodes it with its metadata.
 //
-// Both `stormcellar frame` and the data server draw by these functions, so that the same options
+// `stormcellar frame` and the data server both draw by these functions, so that the same options
 // give the same bytes.
 //
-// Threads   Pure, except that they change the fitted scene; drawing uses `threads` threads of its
-//           own.
+// Threads   Pure, except that they change the scene that is fitted. Drawing uses `threads` threads
+//           of its own.
 // Errors    See each function.
 #pragma once
 
@@ -23,37 +23,37 @@
 
 namespace stormcellar::render {
 
-// The grid and the options that a still is drawn from. The referenced objects must outlive the
-// source.
+// The grid and the options from which a still is drawn. The objects that it refers to must outlive
+// it.
 struct StillSource {
     const std::string& domain;
     const grid::BrickView& view;
     const cache::GridDescription& description;
     const SceneOptions& options;
-    // If true, the picture says how old the newest radial is, if that is less than an hour. If
+    // If true, the picture tells the age of the newest radial if that is less than an hour. If
     // false, the picture does not depend on the time at which it is drawn.
     bool tells_age = true;
     const grid::BrickView* rotation = nullptr;  // as for render_frame()
 };
 
-// Returns the facts that the labels of the still show.
+// Returns the facts for the labels of the still.
 [[nodiscard]] FrameFacts facts_of_still(const StillSource& source);
 
-// Chooses unspecified options by the echo (fitted_view.h). For a sweep, which is seen from above,
-// only sets the angle (scene_shown()). Errors: those of fit_picture().
+// Chooses by the echo the options that were not given (fitted_view.h). For a sweep, which is seen
+// from above, only sets the angle (scene_shown()). Errors: those of fit_picture().
 [[nodiscard]] Status fit_to_grid(const StillSource& source, Scene& scene);
 
 // The settings for writing a still.
 struct StillWriting {
     const StillFormat& format;
     TiffContent tiff = TiffContent::values;
-    std::string error;  // of the picture, by its plan; empty: not planned
+    std::string error;  // error of the picture by its plan; empty: not planned
     int threads = 1;
     std::function<void()> drawn;  // called after the picture is drawn, before it is encoded
 };
 
 // Draws the fitted scene and encodes the picture. A format of maps encodes the map of the grid
-// instead and does not call `drawn`. Errors: those of render_frame() and of the format.
+// instead, and does not call `drawn`. Errors: those of render_frame() and of the format.
 [[nodiscard]] Result<std::vector<std::byte>> encode_still(const StillSource& source,
                                                           const Scene& scene,
                                                           const StillWriting& writing);

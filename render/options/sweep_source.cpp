@@ -11,7 +11,7 @@ namespace stormcellar::render {
 namespace {
 
 constexpr double same_elevation_deg = 0.2;
-// The heights that a level of a grid may have.
+// The lowest and the highest level that a grid may have.
 constexpr double lowest_level_m = -1e3, highest_level_m = 6e4;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// render/options/sweep_source.h -- finds the sweep of a volume that a scene asks for, the plane on
-// which it is drawn, and its description.
+// render/options/sweep_source.h -- finds the sweep of a volume that a scene asks for, chooses the
+// plane on which it is drawn, and describes it.
 //
 // `stormcellar frame` and the data server both choose by these functions, so that the same options
 // give the same picture.
@@ -20,24 +20,25 @@
 
 namespace stormcellar::render {
 
-// Returns the elevation or the number that the scene names. If several sweeps have the same angle,
-// the wish selects the sweep nearest in time to `nearest_to`, or the newest if no time is given.
+// Returns the elevation or the number that the scene asks for. If several sweeps have this angle,
+// the wish means the one that is nearest in time to `nearest_to`, or the newest if no time is
+// given.
 [[nodiscard]] grid::SweepWish sweep_wish_of(const Scene& scene,
                                             std::optional<UtcTime> nearest_to = {});
 
-// Returns the cuts of the volume's pattern at the angle nearest to the wish (without an angle, at
-// the lowest), so that no other cut needs to be decoded. Returns none, which means all cuts, in
-// three cases: the wish has a number, which counts all sweeps; the volume has no pattern; or no cut
-// is near, so that the error can list all angles.
+// Returns the cuts of the volume's pattern that are nearest in angle to the wish, or the lowest
+// cuts if the wish has no angle. No other cut need be decoded. Returns none, which means all cuts,
+// in three cases: the wish has a number, which counts all sweeps; the volume has no pattern; or no
+// cut is near, so that the error can list all angles.
 [[nodiscard]] std::vector<int> cuts_of_wish(const level2::Volume& volume,
                                             const grid::SweepWish& wish);
 
-// Returns the plane about the site that reaches to the last gate. Its cells are as wide as gates;
-// only formats of maps show them.
+// Returns a plane about the site that reaches to the last gate. Its cells are as wide as gates.
+// Only formats of maps show the cells.
 [[nodiscard]] grid::GridSpec plane_of_sweep(const grid::SweepLookup& sweep);
 
-// Describes the sweep of the volume on its plane in the way that a grid is described, for labels
-// and metadata. `file` is the path or the name of the volume's file.
+// Describes the sweep on its plane as a grid would be described, for labels and metadata. `file` is
+// the path or the name of the volume's file.
 [[nodiscard]] cache::GridDescription describe_sweep(const grid::SweepLookup& sweep,
                                                     grid::GridSpec plane,
                                                     const grid::SourceVolume& source,

@@ -12,7 +12,7 @@ using accuracy::make_effect;
 
 constexpr int fewest_slices = 32;
 constexpr int most_slices = 2048;
-// The scale of efforts is arbitrary but fixed: a slice has the same effort in every scene.
+// The unit of efforts is arbitrary but fixed. A slice has this effort in every scene.
 constexpr double effort_of_a_slice = 1e-3;
 constexpr double effort_of_a_table = 1e-3;
 constexpr double effort_of_every_pixel = 2e-2;

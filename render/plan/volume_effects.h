@@ -1,8 +1,8 @@
-// render/plan/volume_effects.h -- the steps of drawing a volume, the ways to do each (rungs), and
-// the effects that lead from rung to rung.
+// render/plan/volume_effects.h -- defines the steps of drawing a volume, the ways to do each
+// (rungs), and the effects that lead from rung to rung.
 //
-// Each step has a lowest rung and effects. Each effect turns on the next rung. The list gives the
-// lowest rung of each step, then each effect with its rung:
+// Each step has a lowest rung, and each of its effects turns on the next rung. The list gives the
+// lowest rung of each step, and then each effect with its rung:
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
 //   integration  the nearer value of each step; value_span: all values between the ends of the
 //                step; step_attenuation: all values in their order, so that near values hide far
@@ -15,9 +15,10 @@
 //                through; scattering_light: the light that gets through and is scattered once
 //                toward the camera
 // Kinds of light that the scene does not have (stormcellar/render/light.h) are not_asked, so the
-// exact picture lacks them too. Camera, exaggeration and the curve of the earth belong to the
-// scene, because they define what is shown. Sizes are color differences (CIEDE2000). The exact form
-// has every effect on; docs/accuracy.md says how far 2048 slices are from infinitely many.
+// exact picture does not have them either. Camera, exaggeration and the curve of the earth are part
+// of the scene, because they define what is shown. Sizes are color differences (CIEDE2000). In the
+// exact form, every effect is on; docs/accuracy.md says how far 2048 slices are from infinitely
+// many.
 //
 // Threads   Plain values and pure functions.
 #pragma once
@@ -38,16 +39,16 @@ struct VolumeChoice {
     bool operator==(const VolumeChoice&) const = default;
 };
 
-// The tolerance between rays for pixels that are not cast: two of 255 levels.
+// The tolerance between two rays for interpolating the pixels between them: two of 255 levels.
 inline constexpr double interpolated_tolerance = 2.0 / 255;
 
-// Returns the chain. Settings are automatic, or not_asked for kinds of light that the scene does
+// Returns the chain. Settings are automatic, but not_asked for kinds of light that the scene does
 // not have. Sizes and costs are 0 until predict() sets them (render/plan/volume_plan.h).
 [[nodiscard]] accuracy::Chain volume_chain(const Light& light = {});
 
-// Returns the rungs of a choice by name. volume_chain() must have made the chain.
+// Returns the rungs of a choice as members. The chain must come from volume_chain().
 [[nodiscard]] VolumeChoice volume_choice(const accuracy::Chain& chain,
                                          const accuracy::Choice& choice);
-// Returns the choice for these rungs. The number of slices is rounded up to a rung.
+// Returns the choice that has these rungs. The number of slices is rounded up to a rung.
 [[nodiscard]] accuracy::Choice rungs_of(const accuracy::Chain& chain, const VolumeChoice& choice);
 }  // namespace stormcellar::render

@@ -94,7 +94,7 @@ Result<VolumePlan> plan_volume(VolumeScene& scene, Chain chain,
     };
     auto plan = accuracy::govern_or_default(chain, budget, rungs_of(chain, by_default), measure);
     if (!plan) return pass_on(plan);
-    // The default may have a number of slices between two rungs.
+    // The default may have a number of slices that is between two rungs.
     const VolumeChoice choice = budget ? volume_choice(chain, plan->choice) : by_default;
     return VolumePlan{std::move(*plan), choice};
 }

@@ -1,12 +1,12 @@
 // render/plan/volume_plan.h -- finds the cheapest picture of a volume within a budget, and the size
 // of each effect in it.
 //
-// A size is the 99th percentile of CIEDE2000 over all pixels of the picture, without labels and
-// over the page's color. A size compares a rung with the rung below, with every other step exact.
-// The planned picture is compared with the picture of the exact chain, so nothing is estimated, but
+// A size is the 99th percentile of CIEDE2000 over all pixels of the picture, drawn without labels
+// over the page's color. It compares a rung with the rung below; all other steps are exact. The
+// planned picture is compared with the picture of the exact chain, so nothing is estimated. But
 // that picture must be drawn once.
 //
-// Threads   A VolumeScene may be used by one thread at a time; it draws with `threads` threads.
+// Threads   One thread at a time may use a VolumeScene. It draws with `threads` threads.
 #pragma once
 
 #include <deque>
@@ -22,7 +22,7 @@
 
 namespace stormcellar::render {
 
-// A scene that is drawn with several choices. All arguments must outlive the VolumeScene.
+// A scene that is drawn by several choices. All arguments must outlive the VolumeScene.
 class VolumeScene {
   public:
     // `width` and `height` are the size of the picture without its labels.
@@ -31,9 +31,9 @@ class VolumeScene {
 
     struct Drawn {
         Image picture;
-        double seconds = 0;  // by the clock, including the work that a loop does only once
+        double seconds = 0;  // by the clock; includes work that a loop does only once
     };
-    // Draws a choice and keeps the picture; later calls return the kept picture.
+    // Draws the picture of a choice and keeps it. Later calls return the kept picture.
     [[nodiscard]] const Drawn& draw(const VolumeChoice& choice);
 
   private:
@@ -44,10 +44,10 @@ class VolumeScene {
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // a deque, so that references stay valid
 };
 
-// The effects to predict: those that the scene asks for, which are enough for a plan, or all.
+// Says which effects to predict: those that the scene asks for, which a plan needs, or all.
 enum class Predicted { asked, all };
 
-// Predicts the size and cost of each effect for this scene. Settings do not change.
+// Predicts the size and cost of each effect for this scene. Does not change settings.
 [[nodiscard]] Status predict(VolumeScene& scene, accuracy::Chain& chain,
                              Predicted which = Predicted::asked);
 
@@ -55,16 +55,16 @@ struct VolumePlan {
     accuracy::Plan plan;
     VolumeChoice choice;
 };
-// Predicts, chooses and measures (accuracy/governor.h). Without a budget the plan holds
-// `by_default` with the size of each effect. Errors: those of accuracy::govern(); bad_argument for
+// Predicts, chooses and measures (accuracy/governor.h). Without a budget, the plan has the choice
+// `by_default`, with the size of each effect. Errors: those of accuracy::govern(); bad_argument for
 // a budget that bounds anything but a color difference or a time.
 [[nodiscard]] Result<VolumePlan> plan_volume(VolumeScene& scene, accuracy::Chain chain,
                                              const std::optional<accuracy::Budget>& budget,
                                              const VolumeChoice& by_default,
                                              Predicted which = Predicted::asked);
 
-// Makes a row for each rung of each step that the scene asks for. A row compares two pictures: one
-// with this rung and all other steps exact, and one of the exact chain.
+// Makes a row for each rung of each step that the scene asks for. The row compares two pictures:
+// one has this rung, and all other steps exact; the other is that of the exact chain.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 
