@@ -17,16 +17,16 @@ using grid::BrickView;
 using grid::CellStatus;
 static_assert(std::endian::native == std::endian::little);
 
-// Notes that a run of up to 16 cells of a column was seen from this level on, and the states in the
-// run.
+// Notes the lowest level that was seen in a run of up to 16 cells of a column, and the states in
+// the run.
 void note_states(ColumnSummary& column, int lowest_seen, bool has_no_echo, bool has_range_folded) {
     column.lowest_seen = std::min(column.lowest_seen, static_cast<std::uint16_t>(lowest_seen));
     column.has_no_echo = column.has_no_echo || has_no_echo;
     column.has_range_folded = column.has_range_folded || has_range_folded;
 }
 
-// Summarizes a whole run of 16 cells; cells beyond the top of the grid are stored as not seen.
-// There are no branches in the loop, so that the compiler handles all cells at once.
+// Summarizes a whole run of 16 cells; cells beyond the top of the grid are stored as not seen. The
+// loop has no branches, so that the compiler can compute all cells at once.
 template <class Code>
 void note_codes(ColumnSummary& column, const std::byte* codes, int first_level, Code first_code) {
     std::array<Code, brick_edge> run{};
@@ -55,8 +55,8 @@ void note_codes(ColumnSummary& column, const std::byte* codes, int first_level, 
     }
 }
 
-// Summarizes a run of 16 equal bytes of clear air or of air that was not seen. Most runs are of
-// this kind. Returns false for any other run.
+// Summarizes a run of 16 equal bytes that mean clear air or air that was not seen. Most runs are
+// like this. Returns false for any other run.
 bool note_plain_bytes(ColumnSummary& column, const std::byte* codes, int first_level) {
     std::array<std::uint64_t, 2> run{};
     static_assert(sizeof(run) == brick_edge);
@@ -67,7 +67,7 @@ bool note_plain_bytes(ColumnSummary& column, const std::byte* codes, int first_l
     return run[0] == all_no_echo || run[0] == 0;
 }
 
-// Summarizes a run of up to 16 states of two bits, the lowest cell in the lowest bits.
+// Summarizes a run of up to 16 states of two bits each. The lowest cell has the lowest bits.
 void note_packed_states(ColumnSummary& column, std::uint32_t states, int cells, int first_level) {
     if (cells < brick_edge) states &= (std::uint32_t{1} << (2 * cells)) - 1;
     if (states == 0) return;
@@ -132,7 +132,7 @@ void summarize_brick(const BrickView& view, int bx, int by, int bz,
     });
 }
 
-// Summarizes the columns in the bricks with this y number, from the lowest bricks up.
+// Summarizes the columns in the bricks with this y number, from the lowest brick to the highest.
 void summarize_band(const BrickView& view, int by, std::vector<ColumnSummary>& columns) {
     for (int bx = 0; bx < view.bricks_x; ++bx) {
         for (int bz = 0; bz < view.bricks_z; ++bz)

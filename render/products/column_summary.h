@@ -21,9 +21,9 @@ struct ColumnSummary {
     bool has_range_folded = false;
     bool has_ambiguous = false;
 
-    // Returns the state of the column maximum: a value if any cell has one; else ambiguous if any
-    // cell is ambiguous; else range folded if any cell is range folded, because the echo behind it
-    // is unknown; else no echo if any cell was seen.
+    // Returns the state of the column maximum. It is a value if any cell has one. Otherwise it is
+    // ambiguous if any cell is, else range folded if any cell is, because the echo behind it is
+    // unknown, else no echo if any cell was seen.
     [[nodiscard]] grid::CellStatus status() const {
         if (max_code > 0) return grid::CellStatus::value;
         if (has_ambiguous) return grid::CellStatus::ambiguous;
@@ -32,17 +32,17 @@ struct ColumnSummary {
     }
 };
 
-// Returns true if all bricks of this column of bricks are uniform. Then all columns of cells in
-// these bricks are equal and have no value.
+// Returns true if all bricks of this column of bricks are uniform. All columns of cells in these
+// bricks are then equal and have no value.
 [[nodiscard]] bool is_uniform_stack(const grid::BrickView& view, int bx, int by);
 
-// Returns the states of 16 cells of a column in a brick of states, from this cell of the brick
-// upward: two bits for each cell, the lowest cell in the lowest bits.
+// Returns the states of 16 cells of a column in a brick of states, from this cell upward: two bits
+// for each cell, the lowest cell in the lowest bits.
 [[nodiscard]] std::uint32_t states_of_run(const grid::BrickView& view,
                                           const grid::BrickEntry& entry, std::size_t cell);
 
-// Summarizes all columns, from west to east in rows from south to north. The result is the same for
-// any number of threads.
+// Summarizes all columns: rows from south to north, each from west to east. The result is the same
+// for any number of threads.
 [[nodiscard]] std::vector<ColumnSummary> summarize_columns(const grid::BrickView& view,
                                                            int threads);
 

@@ -197,7 +197,7 @@ Result<FlatField> cappi_field(const BrickView& view, level2::Moment moment, doub
         for (int ix = 0; ix < field.width; ++ix) {
             const grid::Sample lower = cell_of(view, half_period, ix, iy, levels->lower);
             const grid::Sample upper = cell_of(view, half_period, ix, iy, levels->upper);
-            // Most columns are clear at both levels, or not seen at both.
+            // Most columns are clear at both levels, or were not seen at either level.
             if (lower.status == upper.status && lower.status != CellStatus::value) {
                 field.put(field.index(ix, iy), lower.status, 0);
                 continue;

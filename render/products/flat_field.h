@@ -1,26 +1,28 @@
 // render/products/flat_field.h -- 2D products: one value or state for each column of a grid.
 //
 //   composite   The largest value of the column; ColumnSummary::status() gives the state.
-//   cappi       The value at one height, linear between the two levels around it (cell_mixer.h says
-//               which state results where states mix). At the height of a level, the result is the
-//               value of that level.
-//   echo_top    km: the greatest height at which reflectivity reaches a threshold. From the highest
-//               cell that reaches it, reflectivity is linear in dB to the next cell above, if that
-//               cell has a value. If there is no echo above, the top is the height of the cell
-//               itself. If the cell above was not seen, is range folded or does not exist, the top
-//               is not known and the height is marked "at least".
-//   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972). VIL is 3.44e-6
-//               times the integral of Z^(4/7) over height, where Z (mm6/m3) of a layer is the mean
-//               of the two levels around it, capped at 56 dBZ, as the Weather Service does. No echo
-//               is Z = 0. Cells that are not seen or range folded add nothing: half of the layer
-//               beside them is left out. Like cells, the first and the last level reach half a
-//               spacing beyond themselves.
-//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. This
-//                 is a mean density, so that tall and low storms can be compared; hail has a high
-//                 density. Columns have a value where there is an echo top. If the top may be
-//                 higher, or VIL lacks cells that were not seen, the result covers the part that
-//                 was seen. A top of less than least_depth_m counts as least_depth_m.
-//   maximum_height   km: the height of the lowest cell with the largest value of the column, if
+//   cappi       The value at one height, linear between the two levels around it. cell_mixer.h says
+//               which state results if the two states differ. At the height of a level, the result
+//               is the value of that level.
+//   echo_top    km: the greatest height at which reflectivity reaches a threshold. If the cell
+//   above
+//               the highest cell that reaches it has a value, reflectivity is linear in dB between
+//               the two. If there is no echo above, the top is the height of the cell itself. If
+//               the cell above was not seen, is range folded or does not exist, the top is not
+//               known, and the height is marked "at least".
+//   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972), 3.44e-6 times
+//   the
+//               integral of Z^(4/7) over height. Z (mm6/m3) of a layer is the mean of the two
+//               levels around it, capped at 56 dBZ, as the Weather Service does. No echo is Z = 0.
+//               A cell that is not seen or range folded adds nothing: the half layers beside it are
+//               left out. The first and the last level reach half a spacing beyond themselves, as
+//               cells do.
+//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
+//                 a mean density, so tall and low storms can be compared; hail has a high density.
+//                 Columns with an echo top have a value. If the top may be higher, or if VIL lacks
+//                 cells that were not seen, the result covers the part that was seen. A top of less
+//                 than least_depth_m counts as least_depth_m.
+//   maximum_height   km: the height of the lowest cell that has the largest value of the column, if
 //                    that value reaches a threshold.
 //   ppi         The gate of a sweep at the center of each column. A picture looks up each pixel
 //               (sweep_field.h).
@@ -55,7 +57,7 @@ struct FlatField {
     int width = 0, height = 0;             // columns, and rows from south to north
     std::vector<float> values;             // 0 if the status is not value
     std::vector<grid::CellStatus> status;  // of each column
-    // 1 for a column whose true value may be larger; empty if there is no such column
+    // 1 for a column whose true value may be larger; empty if no column is like this
     std::vector<std::uint8_t> at_least;
 
     FlatField() = default;

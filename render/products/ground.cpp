@@ -26,9 +26,8 @@ class ColumnFinder {
         return holding(p.x_m / cell_width_m_ + 0.5 * nx_, p.y_m / cell_height_m_ + 0.5 * ny_);
     }
 
-    // places_of() and holding() do the work of at() in two steps: places_of() converts the points
-    // of a row to places counted in columns, and holding() returns the column that holds such a
-    // place.
+    // Do the work of at() in two steps: places_of() converts the points of a row to places counted
+    // in columns, and holding() returns the column that holds such a place.
     void places_of(const GroundRow& row, std::vector<double>& x, std::vector<double>& y) const {
         x.resize(row.x_m.size());
         y.resize(row.y_m.size());
@@ -47,7 +46,7 @@ class ColumnFinder {
     double cell_width_m_, cell_height_m_;
 };
 
-// Returns true for the pixels of the dots that mark a value "at least".
+// Returns true for the pixels of the dots that mark an "at least" value.
 bool is_dot(int x, int y, double scale) {
     const int period = std::max(4, static_cast<int>(std::lround(6 * scale)));
     const int size = std::max(1, static_cast<int>(std::lround(2 * scale)));
@@ -55,9 +54,9 @@ bool is_dot(int x, int y, double scale) {
     return (x + shift) % period < size && y % period < size;
 }
 
-// Seen at a slant, the ground continues by this many half widths of the grid.
+// If seen at a slant, the ground continues beyond the grid by this many half widths of the grid.
 constexpr double slanted_reach = 1.5;
-// Seen from straight above, the ground continues as far as maps reach.
+// If seen from straight above, the ground continues as far as maps reach.
 constexpr double farthest_m = 2e6;
 
 constexpr int band_rows = 8;
@@ -71,8 +70,8 @@ void for_each_band(const ViewGeometry& geometry, int threads, Work work) {
     });
 }
 
-// Finds the column and the share of water under the pixels of a row. All divisions of a row are
-// made first, in loops that the compiler vectorizes.
+// Finds the column and the share of water under the pixels of a row. It makes all divisions of a
+// row first, in loops that the compiler vectorizes.
 class RowFinder {
   public:
     // `water` may be null.

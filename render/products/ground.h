@@ -1,8 +1,8 @@
 // render/products/ground.h -- paints flat things: the ground of the 3D view, and 2D products.
 //
-// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column whose cell contains
-// the pixel. If the picture has a map, the ground continues beyond the grid, darker (or, on a light
-// page, lighter). Without a map, the page is seen there. Land and water have shades of their own.
+// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column that it lies in. If
+// the picture has a map, the ground continues beyond the grid, darker (lighter on a light page).
+// Without a map, the page is seen there. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -26,7 +26,7 @@ namespace stormcellar::render {
 inline constexpr double low_coverage_m = 3000;
 
 // The shades of the ground tell how the columns over it were seen. how_low: from low down, only
-// higher up, or not at all. whether_seen: seen or not seen, for pictures with haze.
+// from higher up, or not at all. whether_seen: seen or not seen, for pictures with haze.
 enum class GroundTells { how_low, whether_seen };
 
 // The settings for painting the ground.
@@ -55,31 +55,32 @@ struct GroundPatch {
                                  const ViewGeometry& geometry, GroundTells tells,
                                  const GroundLook& look, int threads);
 
-// Returns the color of a place of a field at a pixel of the whole picture. A value has the color of
-// the table, over plain ground if the color is translucent, and with dots if the value is "at
-// least". No echo and values below the table are plain ground, range folded has its own color,
-// ambiguous is plain ground hatched in that color, and not seen is hatched in the theme's color.
+// Returns the color of a place of a field at a pixel of the whole picture. A value has its color in
+// the table, over plain ground if the color is translucent, and with dots if the value is an "at
+// least" value. No echo and values below the table are plain ground. Range folded has a color of
+// its own, and ambiguous is plain ground hatched in that color. Not seen is hatched in the theme's
+// color.
 [[nodiscard]] Rgba8 shade_of(const FlatField& field, std::size_t place, const ColorTable& table,
                              const GroundPatch& patch, const GroundLook& look);
 
-// Returns the color of a value or a state that is in no field.
+// Returns the color of a value or a state that is not in a field.
 [[nodiscard]] Rgba8 shade_of(grid::CellStatus status, float value, bool at_least,
                              const ColorTable& table, const GroundPatch& patch,
                              const GroundLook& look);
 
-// Paints a field with the columns and rows of the grid; if `smoothed`, smooths it
-// (render/products/smooth_field.h).
+// Paints a field with the columns and rows of the grid, smoothed (render/products/smooth_field.h)
+// if `smoothed` is true.
 [[nodiscard]] Image paint_field(const grid::GridSpec& spec, const FlatField& field,
                                 const ColorTable& table, const ViewGeometry& geometry,
                                 const GroundLook& look, int threads, bool smoothed = false);
 
 // Returns true if parallel rays look straight down, as in a map.
 [[nodiscard]] bool is_from_above(const ViewGeometry& geometry);
-// Returns how far beyond the grid the ground is shown, in meters. Seen from straight above, the
-// ground fills the picture; else the ground ends around the grid.
+// Returns how far beyond the grid the ground is shown, in meters. If seen from straight above, the
+// ground fills the picture; otherwise it ends a little outside the grid.
 [[nodiscard]] double reach_beyond_m(const ViewGeometry& geometry);
-// Fades the ground beyond the grid, and the lines on it, to the page, unless the camera looks
-// straight down.
+// Fades the ground beyond the grid, and the lines on it, to the page. Does nothing if the camera
+// looks straight down.
 void fade_beyond(const ViewGeometry& geometry, const Shades& shades, int threads, Image& picture);
 // Paints a field that has a place for each pixel (sweep_in_picture()).
 [[nodiscard]] Image paint_pixels(const grid::GridSpec& spec, const FlatField& field,

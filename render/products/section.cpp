@@ -14,8 +14,8 @@
 namespace stormcellar::render {
 namespace {
 
-// The two indices around a place along an axis, and the share of the second index; none beyond the
-// cells.
+// The two indices around a place along an axis, and the weight of the second. There are none if the
+// place is beyond the cells.
 struct Neighbours {
     int first = 0, second = 0;
     double second_share = 0;
@@ -52,8 +52,8 @@ grid::Sample sample_of(const ColumnCells& cells, float half_period, int level) {
     return {cells.status[i], cells.values[i], 0, half_period};
 }
 
-// Returns the common state of all four columns for each level. The state is `value` where the
-// columns differ or hold values.
+// Returns, for each level, the common state of the four columns, or `value` if the columns differ
+// or hold values.
 std::vector<grid::CellStatus> states_of_all(const std::array<Corner, 4>& corners) {
     std::vector<grid::CellStatus> states = corners.front().cells.status;
     for (const Corner& corner : corners) {
@@ -102,7 +102,8 @@ Section cut_section(const grid::BrickView& view, level2::Moment moment, const Se
         for (int y = 0; y < height; ++y) {
             const auto& levels = rows[static_cast<std::size_t>(y)];
             if (!levels) continue;
-            // Cells of one state give that state. Most of a section is clear or was not seen.
+            // If all cells have one state, the result is that state. Most of a section is clear or
+            // was not seen.
             const grid::CellStatus state = states[static_cast<std::size_t>(levels->lower)];
             if (state != grid::CellStatus::value &&
                 state == states[static_cast<std::size_t>(levels->upper)]) {

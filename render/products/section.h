@@ -1,10 +1,10 @@
 // render/products/section.h -- a vertical cross section between two places.
 //
 // The section follows the geodesic from one place to the other, and is sampled at the centers of
-// the pixels of a picture: bilinear between the centers of columns and linear in height, by the
-// status rule (cell_mixer.h). The outermost cells reach half a cell beyond their centers; farther
-// out there is no grid. Heights run from sea level (or from the lowest cells, if they are below it)
-// to the highest cells. Air under the lowest cells counts as not seen.
+// the pixels of a picture. Samples are bilinear between the centers of columns and linear in
+// height; cell_mixer.h has the rule for states. The outermost cells reach half a cell beyond their
+// centers; farther out there is no grid. Heights run from sea level (or from the lowest cells, if
+// they are lower) to the highest cells. Air under the lowest cells counts as not seen.
 //
 // Accuracy  Places are within 1e-6 m of the geodesic (stormcellar/grid/site_frame.h).
 // Threads   Pure functions; the same bits for any number of threads.
@@ -54,7 +54,7 @@ struct SectionPlace {
 [[nodiscard]] SectionPlace section_place(int width, int height, double scale, bool labels);
 
 // Draws the section with axes: distance and height in their units, latitude and longitude of both
-// ends, and the factor that stretches heights so that they fill the picture. If `fonts` is null,
+// ends, and the factor by which heights are stretched to fill the picture. If `fonts` is null,
 // there are no axes.
 [[nodiscard]] Image draw_section(const Section& section, const ColorTable& table,
                                  const SectionPlace& place, int width, int height,

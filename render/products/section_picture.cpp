@@ -43,8 +43,8 @@ class Axes {
     }
 
   private:
-    // Draws a text so that `share` of its width is left of x, or more if it would leave the picture
-    // at the right.
+    // Draws a text so that `share` of its width is left of x. If it would leave the picture at the
+    // right, it moves to the left.
     void put(const std::string& text, double x, double baseline, double share, bool strong) {
         const double size = 10 * scale_;
         const double width = fonts_.width(text, size, strong);
@@ -85,7 +85,7 @@ class Axes {
         const std::string from = "A  " + place_text(section_.line.from);
         const std::string to = place_text(section_.line.to) + "  B";
         put(from, left_, baseline, 0, true);
-        // If there is no room for both ends, the text of the second end is left out.
+        // Leave out the text of the second end if there is no room for both.
         const double room = right_ - left_;
         const double size = 10 * scale_;
         if (fonts_.width(from + to, size, true) + 12 * scale_ <= room) {

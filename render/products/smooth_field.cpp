@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns the weights of four neighbors at a share of the way between the middle two.
+// Returns the weights of four neighbors for a place between the middle two, at a share of the way.
 std::array<float, 4> cubic_weights(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5F * (-t + 2 * t2 - t3), 0.5F * (2 - 5 * t2 + 3 * t3), 0.5F * (t + 4 * t2 - 3 * t3),
@@ -70,8 +70,8 @@ float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const 
             values[k] = field_.values[cell];
         }
     }
-    // The range of the middle four cells bounds the result. Each of these four cells without a
-    // value gets the mean of the others.
+    // The result stays within the range of the middle four cells. Each of these four that has no
+    // value gets the mean of those that have one.
     constexpr std::array<std::size_t, 4> middle = {5, 6, 9, 10};
     float sum = 0, count = 0, least = 0, largest = 0;
     for (const std::size_t k : middle) {

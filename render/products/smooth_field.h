@@ -2,21 +2,23 @@
 //
 // A plain map shows each cell as a square. In a smoothed map, values change smoothly from cell to
 // cell, by a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four
-// cells around a place. The state is decided first, and values are mixed only with values:
-//   state    If all four cells are a value or no echo, the result is a value if the cells with
-//            values weigh half or more (bilinear weights), else no echo. Otherwise the result has
-//            the state of the nearest cell.
-//   value    For the cubic, cells without a value get one: each of the four gets the mean of the
-//            others, and each of the twelve cells around them gets the value of the nearest of the
-//            four.
+// cells around a place. The state is decided first. Then values are mixed only with other values:
+//   state    If each of the four cells has a value or no echo, the result is a value if the cells
+//   with
+//            values have half of the bilinear weight or more, else no echo. Otherwise the result
+//            has the state of the nearest cell.
+//   value    The cubic needs a value in every cell. So each of the four that has none gets the mean
+//   of
+//            the others, and each of the twelve cells around them that has none gets the value of
+//            the nearest of the four.
 // At the center of a cell, the result is exactly the cell. Beyond the outermost centers, the cells
 // at the edge are repeated.
 //
 // Values on a circle (VEL, PHI) are not smoothed, because a grid does not say where they wrap.
 //
 // Threads   Immutable.
-// Accuracy  tests/render/smooth_field_test.cpp compares all patterns of states of 4 x 4 cells with
-//           a slow form.
+// Accuracy  tests/render/smooth_field_test.cpp compares it with a slow form, for all patterns of
+//           states of 4 x 4 cells.
 #pragma once
 
 #include "render/products/flat_field.h"

@@ -14,7 +14,7 @@ constexpr double mesh_m = 8000;  // between two points that are found exactly
 constexpr int widest_mesh = 16;  // in pixels or columns
 
 // Finds azimuth and arc from the radar for a raster of points. Columns and rows are counted from
-// the middle of the first point; `to_geo` gives the place of any point.
+// the middle of the first point; `to_geo` returns the place of any point.
 class RasterFromSite {
   public:
     template <class ToGeo>
@@ -34,7 +34,7 @@ class RasterFromSite {
     }
 
     // Returns azimuth and arc of a point. Between the points of the mesh, the plane about the radar
-    // is taken as straight.
+    // is treated as straight.
     [[nodiscard]] grid::PolarPoint at(int x, int y) const {
         const int column = x / step_;
         const int row = y / step_;
@@ -62,7 +62,7 @@ class RasterFromSite {
     std::vector<grid::PlanePoint> points_;
 };
 
-// Returns true if the plane of the spec is the azimuthal equidistant one about the radar.
+// Returns true if the plane of the spec is the azimuthal equidistant plane about the radar.
 bool is_about(const grid::GridSpec& spec, const grid::SitePosition& site) {
     return grid::facts_of(spec.projection).is_polar && spec.offset_x_cells == 0 &&
            spec.offset_y_cells == 0 && spec.center_latitude_deg == site.latitude_deg &&

@@ -1,11 +1,11 @@
-// render/products/sweep_field.h -- a sweep as the radar saw it, seen from above on the plane of a
-// grid spec.
+// render/products/sweep_field.h -- shows a sweep as the radar saw it, seen from above on the plane
+// of a grid spec.
 //
 // Each place shows one gate (stormcellar/grid/sweep_lookup.h): values are not mixed.
 //
-// Accuracy  On a plane about the radar itself the places are exact. On another plane, azimuth and
-//           arc are computed every few pixels and interpolated linearly, within 0.5 m for radars up
-//           to 500 km off the middle of the picture (tests/render/sweep_field_test.cpp).
+// Accuracy  Places are exact on a plane about the radar itself. On another plane, azimuth and arc
+//           are computed every few pixels and interpolated linearly, within 0.5 m for radars up to
+//           500 km from the middle of the picture (tests/render/sweep_field_test.cpp).
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace stormcellar::render {
 
-// Returns the gate at the middle of each pixel of a map, rows from the top down. Beyond the grid
-// nothing was seen.
+// Returns the gate at the middle of each pixel of a map, rows from the top down. Outside the grid,
+// pixels are not seen.
 [[nodiscard]] FlatField sweep_in_picture(const grid::SweepLookup& sweep, const grid::GridSpec& spec,
                                          const ViewGeometry& geometry, int threads);
 

@@ -1,4 +1,4 @@
-// render/products/water_mask.h -- which parts of the ground of a picture are sea or lake.
+// render/products/water_mask.h -- tells which parts of the ground of a picture are sea or lake.
 //
 // Threads   Plain data.
 #pragma once
@@ -20,9 +20,8 @@ struct WaterMask {
     int width = 0, height = 0;
     std::vector<std::uint8_t> water;  // the share of each cell, 0 to 255; row by row from the north
 
-    // Returns the share of water at a place, 0..1. The share is linear between the centers of
-    // cells; outside the raster, the share of its nearest place is returned. An empty mask is all
-    // land.
+    // Returns the share of water at a place, 0..1, linear between the centers of cells. Outside the
+    // raster, it returns the share at the nearest place in it. An empty mask is all land.
     [[nodiscard]] double water_at(GroundPoint p) const {
         if (water.empty()) return 0;
         return share_at((p.x_m - west_m) / metres_per_cell - 0.5,

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int block_edge = 16;   // cells
 constexpr std::size_t run = 16;  // pixels
-constexpr int most_blocks = 16;  // under a run; a run over more blocks is taken pixel by pixel
+constexpr int most_blocks = 16;  // under a run; if there are more, the run is taken pixel by pixel
 
 int blocks_along_edge(int cells) {
     return (cells + block_edge - 1) / block_edge;
@@ -88,7 +88,7 @@ void WaterRows::find(const GroundRow& row, WaterRow& found) const {
         found.y[i] = (mask_.north_m - row.y_m[i]) / mask_.metres_per_cell - 0.5;
     for (std::size_t first = 0; first < width; first += run) {
         const std::size_t end = std::min(first + run, width);
-        // If there is sky in the run, the places of its pixels are NaN, and no box holds them.
+        // If part of the run is sky, the places of its pixels there are NaN, and no box holds them.
         const bool has_sky = std::any_of(row.x_m.begin() + static_cast<std::ptrdiff_t>(first),
                                          row.x_m.begin() + static_cast<std::ptrdiff_t>(end),
                                          [](double x_m) { return std::isnan(x_m); });

@@ -1,7 +1,7 @@
-// render/products/water_rows.h -- the share of water under each pixel of a row.
+// render/products/water_rows.h -- computes the share of water under each pixel of a row.
 //
-// Most places are far from any shore. So the mask is divided into blocks. If all blocks under a run
-// of pixels are plain land or plain water, the run needs no work for each pixel.
+// Most places are far from any shore, so the mask is divided into blocks. If all blocks under a run
+// of pixels are plain land or plain water, the pixels of the run need no work of their own.
 //
 // Accuracy  Equal to WaterMask::water_at() to the bit.
 // Threads   Immutable; each thread has a WaterRow of its own.
@@ -17,7 +17,7 @@
 namespace stormcellar::render {
 
 struct WaterRow {
-    std::vector<double> share;  // of each pixel, 0..1; without meaning for the sky
+    std::vector<double> share;  // of each pixel, 0..1; has no meaning for the sky
     std::vector<double> x, y;   // where the pixels are in the raster
 };
 
@@ -31,8 +31,8 @@ class WaterRows {
   private:
     static constexpr std::int16_t shore = -1;  // marks a block whose cells differ
 
-    // Returns the common share of all cells about the pixels from `first` to before `end`, or
-    // `shore`.
+    // Returns the share that all cells about the pixels from `first` to before `end` have in
+    // common, or `shore` if they differ.
     [[nodiscard]] std::int16_t common(const WaterRow& row, std::size_t first,
                                       std::size_t end) const;
     [[nodiscard]] std::int16_t& block(int bx, int by) {

@@ -1,13 +1,13 @@
-// render/still/degree_picture.h -- draws a map over latitude and longitude, whatever the projection
-// of its grid.
+// render/still/degree_picture.h -- draws a map over latitude and longitude, whatever projection its
+// grid has.
 //
-// Pixels are regular in degrees and show the cell that holds their center. A cell at the center of
-// the grid is two pixels wide, unless a side would then have more than 4096 pixels.
+// Pixels are equally spaced in degrees and show the cell that holds their center. A cell at the
+// center of the grid is two pixels wide, or less if a side would then have more than 4096 pixels.
 //
-// Accuracy  Places on the grid are computed every eight pixels and interpolated between; the error
-//           is below 0.02 cells.
+// Accuracy  Places on the grid are computed every eight pixels and interpolated between these; the
+//           error is below 0.02 cells.
 // Threads   Pure; the same bits for any number of threads.
-// Errors    unsupported for a grid that holds a pole, which no map of degrees can show.
+// Errors    unsupported for a grid that holds a pole, because no map of degrees can show it.
 #pragma once
 
 #include "render/products/flat_field.h"
@@ -20,16 +20,16 @@
 namespace stormcellar::render {
 
 struct DegreePicture {
-    // The edges of the outer pixels. West is at least -180 and below 180; across the antimeridian,
-    // east is above 180.
+    // The outer edges of the picture. West is at least -180 and below 180. If the picture crosses
+    // the antimeridian, east is above 180.
     EarthBox box;
-    Image image;  // clear outside of the grid
+    Image image;  // transparent outside the grid
 };
 
 [[nodiscard]] Result<DegreePicture> draw_in_degrees(const grid::GridSpec& spec,
                                                     const FlatField& field, const ColorTable& table,
                                                     int threads);
 
-inline constexpr int most_degree_pixels = 4096;  // along a side; globe programs take no more
+inline constexpr int most_degree_pixels = 4096;  // along a side; globe programs do not take more
 
 }  // namespace stormcellar::render

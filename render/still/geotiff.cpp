@@ -1,6 +1,6 @@
 // Writes GeoTIFF: the cells of a map in the grid's own projection. A pixel is a column of the grid,
-// so nothing is resampled. Overviews take every second cell of the previous raster, so that each of
-// their values is the value of a cell.
+// so nothing is resampled. Each overview takes every second cell of the previous raster, so each of
+// its values is also the value of a cell.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,7 +67,7 @@ std::vector<GeoKey> geo_keys(const grid::GridSpec& spec) {
             return keys;
         }
         case grid::Projection::lambert_conformal: {
-            constexpr std::uint16_t method = 8;  // two standard parallels, which may be the same
+            constexpr std::uint16_t method = 8;  // two standard parallels, which may be equal
             keys = keys_of_plane(method, "Lambert conformal conic, WGS 84");
             add(geo_key::parallel_1, spec.parallels_deg[0]);
             add(geo_key::parallel_2, spec.parallels_deg[1]);
@@ -88,8 +88,8 @@ std::vector<GeoKey> geo_keys(const grid::GridSpec& spec) {
     return keys;
 }
 
-// Places the raster. The corner of the first pixel is half a cell beyond the center of the column
-// in the north-west.
+// Places the raster. The corner of the first pixel is half a cell outside the center of the
+// northwest column.
 void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
     if (spec.in_degrees()) {
         const grid::GridProjection projection(spec);
@@ -103,7 +103,7 @@ void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
     facts.top_left = {spec.x_m(0) - spec.spacing_m / 2, spec.y_m(spec.ny - 1) + spec.spacing_m / 2};
 }
 
-// A class of pixels in the state raster: a state of cells, or tops that may be higher.
+// A class of pixels in the raster of states: a state of cells, or tops that may be higher.
 struct StateClass {
     std::uint8_t code = 0;
     std::string_view name = {};
@@ -140,7 +140,7 @@ std::string states_text(level2::Moment moment) {
     return text;
 }
 
-// Makes a raster of a field. Rows of the field run from south to north, but rows of the raster from
+// Makes a raster of a field. Rows of the field run from south to north; rows of the raster run from
 // north to south.
 template <class PixelOf>
 TiffRaster raster_of(const FlatField& field, const PixelOf& pixel_of) {
@@ -189,12 +189,12 @@ TiffRaster halved(const TiffRaster& from) {
     return half;
 }
 
-// Escapes a text twice, because GDAL reads texts as XML, and then reads the result as XML again.
+// Escapes a text twice: GDAL parses texts as XML, and then parses the result as XML again.
 std::string gdal_escaped(std::string_view text) {
     return xml_escaped(xml_escaped(text));
 }
 
-// Returns texts that GDAL shows as metadata, and as the name and the unit of the band.
+// Returns the texts that GDAL shows as metadata and as the name and the unit of the band.
 std::string gdal_metadata(const StillMap& map, const StillOptions& options) {
     std::string items;
     for (const auto& [keyword, text] : options.metadata) {

@@ -1,4 +1,4 @@
-// render/still/legend_panel.h -- draws a small panel that explains an overlay of a globe: product,
+// render/still/legend_panel.h -- draws a small panel that explains an overlay on a globe: product,
 // place, time and colors.
 //
 // Threads   Pure.

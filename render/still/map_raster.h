@@ -1,5 +1,5 @@
-// render/still/map_raster.h -- a 2D product for formats of maps: its field, and the color of each
-// cell over another map.
+// render/still/map_raster.h -- makes a 2D product for formats of maps: its field, and the color
+// that each cell has over another map.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -13,8 +13,8 @@ namespace stormcellar::render {
 // no map, and those of check_frame().
 [[nodiscard]] Result<FlatField> still_field(const StillMap& map, int threads);
 
-// Returns the color over another map. No echo, and values that the table does not show, are clear.
-// Cells that were not seen are a thin gray veil, unlike any echo.
+// Returns the color over another map. No echo, and values that the table does not show, are
+// transparent. Cells that were not seen have a thin gray veil, which looks unlike any echo.
 [[nodiscard]] Rgba8 overlay_color(const FlatField& field, std::size_t place,
                                   const ColorTable& table);
 [[nodiscard]] Rgba8 overlay_color(grid::CellStatus status, float value, const ColorTable& table);

@@ -42,7 +42,7 @@ class WindowPlaces {
         if (window_.plane == Plane::degrees) return std::clamp(at, -90.0, 90.0);
         return mercator_latitude_deg(at);
     }
-    // Return the place, in pixels, of a longitude or a latitude.
+    // Return the place of a longitude or of a latitude, in pixels.
     [[nodiscard]] double x_of(double longitude_deg) const {
         const double at = window_.plane == Plane::degrees ? longitude_deg
                                                           : longitude_deg / degrees_per_mercator_m;
@@ -66,7 +66,7 @@ struct PixelBox {
     [[nodiscard]] bool is_empty() const { return left >= right || top >= bottom; }
 };
 
-// Returns the pixels that may be on the grid if its longitudes are `turn_deg` farther east.
+// Returns the pixels that may be on the grid, if its longitudes are moved `turn_deg` to the east.
 PixelBox pixels_of(const PlaneWindow& window, const EarthBox& box, double turn_deg) {
     const WindowPlaces places(window);
     const auto within = [](double pixel, int most) {
@@ -88,7 +88,7 @@ void for_each_copy(const PlaneWindow& window, const EarthBox& box, const Work& w
     const double first = std::ceil((places.longitude_deg(0) - box.east_deg) / 360 - 0.01);
     const double last =
         std::floor((places.longitude_deg(window.width) - box.west_deg) / 360 + 0.01);
-    // More copies than pixels cannot be seen.
+    // There are more copies than pixels, so they cannot be seen.
     if (!(last - first <= window.width)) return;
     for (double turn = first; turn <= last; ++turn) {
         const PixelBox pixels = pixels_of(window, box, turn * 360);
@@ -127,9 +127,9 @@ class PlaceColors {
     Rgba8 last_color_{};
 };
 
-// A square of pixels. The corners are the centers of its first pixels and of the pixels just beyond
-// it to the right and below: corners[0] is at the top left, [1] at the top right, [2] and [3] are
-// below them.
+// A square of pixels. corners[0] is the center of the first pixel, at the top left, and [1] is the
+// center of the pixel just beyond the square at the right. [2] and [3] are those below, in the row
+// just beyond the square.
 struct Mesh {
     int left = 0, top = 0, side = 0;
     std::array<ColumnPoint, 4> corners{};
@@ -180,8 +180,8 @@ class PlanePainter {
         const ColumnPoint right = place_at(x + mesh.side, y + half);
         const ColumnPoint bottom = place_at(x + half, y + mesh.side);
         const ColumnPoint middle = place_at(x + half, y + half);
-        // A conformal map may bend the sides of a mesh and leave its middle in place, so all five
-        // points are checked.
+        // Check all five points, because a conformal map may bend the sides of a mesh but leave its
+        // middle in place.
         const ColumnPoint straight = mixed(mixed(a, b, 0.5), mixed(c, d, 0.5), 0.5);
         const double off = std::max({off_by(top, mixed(a, b, 0.5)), off_by(left, mixed(a, c, 0.5)),
                                      off_by(right, mixed(b, d, 0.5)),

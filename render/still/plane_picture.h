@@ -2,15 +2,15 @@
 // pictures of web maps.
 //
 // A pixel shows the cell that holds its center, in the color of overlay_color(). A pixel outside
-// the grid is clear. The field may be coarser than the grid: each of its cells then covers
+// the grid is transparent. The field may be coarser than the grid: then each of its cells covers
 // 2^halvings by 2^halvings columns, counted from the southwest corner of the grid.
 //
 // Units     Web Mercator (EPSG:3857) in meters of its plane, degrees as longitude and latitude.
-// Accuracy  Places on the grid are interpolated between the corners of squares of pixels. If the
-//           middle of a square or of a side is then off by more than a tenth of a pixel, the square
-//           is divided.
+// Accuracy  Places on the grid are interpolated between the corners of squares of pixels. A square
+//           is divided if its middle, or the middle of a side, is off by more than a tenth of a
+//           pixel.
 // Threads   Pure functions.
-// Errors    None: a window without pixels, or off the grid, gives clear pixels.
+// Errors    None: a window that has no pixels or is off the grid gives transparent pixels.
 #pragma once
 
 #include "render/products/flat_field.h"
@@ -26,15 +26,15 @@ inline constexpr double mercator_edge_m = 20037508.342789244;  // radius times p
 
 enum class Plane { web_mercator, degrees };
 
-// The edges of the outer pixels, in the unit of the plane.
+// The outer edges of the window, in the unit of the plane.
 struct PlaneWindow {
     Plane plane = Plane::web_mercator;
     double west = 0, south = 0, east = 0, north = 0;
     int width = 0, height = 0;  // pixels
 };
 
-// The box of a grid on the earth. Longitudes are continuous about its center, so they may be beyond
-// 180 degrees. Around a pole the box has all longitudes.
+// The box of a grid on the earth. Longitudes are continuous about its center, so they may exceed
+// 180 degrees either way. Around a pole, the box has all longitudes.
 struct EarthBox {
     double south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;
 };
@@ -44,8 +44,8 @@ struct EarthBox {
     return at.x >= -0.5 && at.x < spec.nx - 0.5 && at.y >= -0.5 && at.y < spec.ny - 0.5;
 }
 
-// mercator_latitude_deg() returns the latitude of a y in Web Mercator. mercator_y_m() is its
-// inverse, for latitudes below 89.9 degrees.
+// Convert between y and latitude in Web Mercator. mercator_y_m() is for latitudes below 89.9
+// degrees.
 [[nodiscard]] double mercator_latitude_deg(double y_m) noexcept;
 [[nodiscard]] double mercator_y_m(double latitude_deg) noexcept;
 

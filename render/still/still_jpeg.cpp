@@ -1,5 +1,5 @@
-// Writes JPEG with libjpeg. Colors are data, so they are not subsampled, and the quality is so high
-// that the classes of a color table stay distinct.
+// Writes JPEG with libjpeg. Colors stand for data, so they are not subsampled, and the quality is
+// high enough to keep the classes of a color table distinct.
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -21,7 +21,7 @@ constexpr int quality = 92;
 constexpr std::size_t most_marker_bytes = 65533;  // 65535, less two for the length itself
 
 struct JpegErrors {
-    jpeg_error_mgr manager{};  // the first member: libjpeg hands back its address
+    jpeg_error_mgr manager{};  // the first member, because libjpeg hands back its address
     std::jmp_buf jump{};
     std::array<char, JMSG_LENGTH_MAX> message{};
 };
@@ -39,7 +39,7 @@ struct JpegBytes {
     unsigned long size = 0;
 };
 
-// Uses only C calls and trivial objects, because libjpeg calls longjmp when it fails.
+// Uses only C calls and trivial objects, because libjpeg calls longjmp if it fails.
 bool write_jpeg(jpeg_compress_struct& jpeg, JpegErrors& errors, const Image& image,
                 std::span<const unsigned char> xmp, unsigned char* row, JpegBytes& bytes) {
     if (setjmp(errors.jump) != 0) return false;
@@ -73,7 +73,7 @@ bool write_jpeg(jpeg_compress_struct& jpeg, JpegErrors& errors, const Image& ima
 }
 
 // Returns the content of the marker APP1: a name, a zero byte and the XMP packet (XMP
-// specification, part 3). If the texts do not fit into one marker, only the title is kept.
+// specification, part 3). If the texts are too long for one marker, only the title is kept.
 std::string xmp_marker(const PictureTexts& texts) {
     if (texts.empty()) return {};
     const auto marker = [](const PictureTexts& kept) {

@@ -76,7 +76,7 @@ int tiles_along(int pixels) {
     return (pixels + tiff_tile_side - 1) / tiff_tile_side;
 }
 
-// Cuts out a tile. A tile that reaches beyond the raster repeats its last column and row, which
+// Cuts out a tile. A tile that extends beyond the raster repeats its last column and row, which
 // compress well and are never shown.
 TiffBytes cut_tile(const TiffRaster& raster, std::size_t bytes_each, int tile) {
     const int across = tiles_along(raster.width);
@@ -124,7 +124,7 @@ Result<std::vector<TiffBytes>> pack_tiles(const TiffRaster& raster, TiffSamples 
     return tiles;
 }
 
-// Adds the keys of GeoTIFF: one field of short numbers, and one field each for doubles and texts.
+// Adds the keys of GeoTIFF as three fields: short numbers, doubles and texts.
 void add_geo_fields(const TiffFacts& facts, std::vector<Field>& fields) {
     constexpr std::uint16_t pixel_scale_tag = 33550, tiepoint_tag = 33922, keys_tag = 34735;
     constexpr std::uint16_t doubles_tag = 34736, texts_tag = 34737;
@@ -183,7 +183,7 @@ void add_sample_fields(const TiffFacts& facts, std::vector<Field>& fields) {
     }
 }
 
-// Returns the fields of one raster. The offsets of its tiles are filled in later.
+// Returns the fields of one raster. The offsets of its tiles are set later.
 std::vector<Field> fields_of(const TiffRaster& raster, const std::vector<TiffBytes>& tiles,
                              const TiffFacts& facts, bool is_overview) {
     std::vector<std::uint32_t> sizes;
@@ -218,8 +218,8 @@ std::vector<Field> fields_of(const TiffRaster& raster, const std::vector<TiffByt
 
 constexpr std::size_t entry_bytes = 12;
 
-// Returns true for a value of more than four bytes, which is stored after the directory and not in
-// its entry.
+// Returns true for a value of more than four bytes, which is stored after the directory instead of
+// in its entry.
 bool stands_behind(const Field& field) {
     return field.bytes.size() > 4;
 }
@@ -259,7 +259,8 @@ void put_directory(TiffBytes& file, const std::vector<Field>& fields, std::uint3
     file.insert(file.end(), values.begin(), values.end());
 }
 
-// Returns the text that GDAL's COG driver writes before the first directory, and looks for.
+// Returns the text that GDAL's COG driver writes before the first directory and looks for when it
+// reads.
 std::string layout_text() {
     const std::string lines =
         "LAYOUT=IFDS_BEFORE_DATA\n"
@@ -285,7 +286,7 @@ Status check_rasters(const std::vector<TiffRaster>& rasters, TiffSamples samples
     return {};
 }
 
-// Places the tiles. Small rasters come first, so that a sequential reader sees something soon.
+// Places the tiles. Small rasters come first, so that a sequential reader can soon show something.
 // Returns the size of the file.
 std::size_t place_tiles(std::size_t at, const std::vector<std::vector<TiffBytes>>& tiles,
                         std::vector<std::vector<Field>>& directories) {

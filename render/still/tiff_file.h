@@ -1,9 +1,9 @@
 // render/still/tiff_file.h -- writes cloud-optimized TIFF files: tiles of 256 x 256, deflated, with
-// smaller copies of the raster (overviews). All directories come before all tiles.
+// smaller copies of the raster (overviews).
 //
-// A reader that fetches the first kilobytes then knows where every tile is. The file begins with
-// GDAL's description of this layout. Each tile has its size before it and a copy of its last bytes
-// after it, so that a reader needs no second request.
+// All directories come before all tiles. So a reader that fetches the first kilobytes knows where
+// every tile is. The file begins with GDAL's description of this layout. Each tile has its size
+// before it and a copy of its last bytes after it, so that a reader needs no second request.
 //
 // Source    TIFF 6.0 (Adobe, 1992); "Cloud Optimized GeoTIFF" of GDAL's COG driver; OGC 19-008r4
 //           (GeoTIFF 1.1) for the tags of georeferencing.
@@ -45,7 +45,7 @@ struct TiffFacts {
     TiffSamples samples = TiffSamples::gray_float;
     std::vector<std::array<std::uint8_t, 3>> palette = {};  // up to 256 colors
     std::array<double, 2> pixel_size = {};                  // in units of the map
-    std::array<double, 2> top_left = {};  // the corner of the first pixel: to the east, north
+    std::array<double, 2> top_left = {};  // the corner of the first pixel: east, north
     std::vector<GeoKey> geo_keys = {};    // in rising order
     std::string description = {}, software = {};
     std::string date_time = {};  // "2022:03:17 00:08:42"
@@ -53,9 +53,9 @@ struct TiffFacts {
     std::string gdal_nodata = {};
 };
 
-// Writes a file. `rasters` are the whole raster, then its overviews, each half as large. Errors:
-// bad_argument for rasters without pixels or whose bytes do not fit their size; unsupported for
-// more than the 4 GiB that a TIFF can have; internal if zlib refuses.
+// Writes a file. `rasters` are the whole raster and then its overviews, each half as large as the
+// one before. Errors: bad_argument for rasters without pixels, or with bytes that do not fit their
+// size; unsupported for more than the 4 GiB that a TIFF can have; internal if zlib refuses.
 [[nodiscard]] Result<std::vector<std::byte>> write_tiff(const std::vector<TiffRaster>& rasters,
                                                         const TiffFacts& facts, int threads);
 

@@ -24,9 +24,9 @@ void append_text(std::vector<std::byte>& to, const std::string& text) {
 }
 
 constexpr std::uint16_t needed_version = 20;
-constexpr std::uint16_t first_day = 0x21;  // 1980-01-01, the first that a zip can name
+constexpr std::uint16_t first_day = 0x21;  // 1980-01-01, the earliest date that a zip can hold
 
-// Appends the fields that a member's own header and its entry in the directory share.
+// Appends the fields that are in both a member's own header and its entry in the directory.
 void append_member(std::vector<std::byte>& to, const ZipMember& member) {
     const auto size = static_cast<std::uint32_t>(member.bytes.size());
     append_number(to, needed_version);
