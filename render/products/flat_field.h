@@ -5,14 +5,12 @@
 //               which state results if the two states differ. At the height of a level, the result
 //               is the value of that level.
 //   echo_top    km: the greatest height at which reflectivity reaches a threshold. If the cell
-//   above
-//               the highest cell that reaches it has a value, reflectivity is linear in dB between
-//               the two. If there is no echo above, the top is the height of the cell itself. If
-//               the cell above was not seen, is range folded or does not exist, the top is not
-//               known, and the height is marked "at least".
+//               above the highest cell that reaches it has a value, reflectivity is linear in dB
+//               between the two. If there is no echo above, the top is the height of the cell
+//               itself. If the cell above was not seen, is range folded or does not exist, the top
+//               is not known, and the height is marked "at least".
 //   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972), 3.44e-6 times
-//   the
-//               integral of Z^(4/7) over height. Z (mm6/m3) of a layer is the mean of the two
+//               the integral of Z^(4/7) over height. Z (mm6/m3) of a layer is the mean of the two
 //               levels around it, capped at 56 dBZ, as the Weather Service does. No echo is Z = 0.
 //               A cell that is not seen or range folded adds nothing: the half layers beside it are
 //               left out. The first and the last level reach half a spacing beyond themselves, as

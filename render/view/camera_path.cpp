@@ -9,7 +9,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns the slope at a knot between two straight pieces of these lengths and slopes.
+// Returns the slope at a knot, between two straight pieces with these lengths and slopes.
 double slope_between(KeyedCurve::Shape shape, double length_before, double before,
                      double length_after, double after) {
     if (shape == KeyedCurve::Shape::smooth) {
@@ -29,7 +29,7 @@ bool is_same(const std::optional<Eye>& a, const std::optional<Eye>& b) {
     return a.has_value() == b.has_value() && (!a || is_same(*a, *b));
 }
 
-// Returns the turn from one azimuth to another, -180 to 180 degrees.
+// Returns the turn from one azimuth to another by the shorter way, -180 to 180 degrees.
 double shortest_way_deg(double from_deg, double to_deg) {
     const double way = std::remainder(to_deg - from_deg, 360);
     return way == -180 ? 180 : way;
@@ -122,7 +122,8 @@ CameraPath::PlaceCurves CameraPath::place_curves(const std::vector<Eye>& places)
         y.push_back(place.y_m);
         height.push_back(place.height_m);
     }
-    // If two keys in a row have one place, the camera is at rest at both, so that it stays there.
+    // If two consecutive keys have the same place, the camera is at rest at both, so that it stays
+    // there.
     std::vector<bool> is_held(places.size(), false);
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         if (x[i] != x[i + 1] || y[i] != y[i + 1]) continue;

@@ -7,7 +7,7 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr int column_step = 2;  // of the columns that are read, in both directions
+constexpr int column_step = 2;  // of the columns that are read, along both axes
 constexpr double top_dbz = 18;
 constexpr double clear_air_20_dbz_km2 = 150, clear_air_30_dbz_km2 = 60;
 
@@ -64,7 +64,7 @@ class EchoOutline::Reader {
         for (std::size_t k = 0; k < codes_.size(); ++k)
             tile.columns[k] += largest >= codes_[k] ? 1 : 0;
         ++tile.columns[all_columns];
-        // The top of echo that never reaches the usual threshold of tops is its highest cell.
+        // If no cell reaches the usual threshold of tops, the highest cell counts as the top.
         const int level = top >= 0 ? top : highest;
         tile.top_m = std::max(
             tile.top_m, static_cast<float>(view_.spec->levels_m[static_cast<std::size_t>(level)]));

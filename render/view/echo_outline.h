@@ -1,10 +1,11 @@
-// render/view/echo_outline.h -- where echo is in a grid, or in all grids of a loop. For each small
-// square of columns, the outline counts the columns that reach each of several thresholds, and
-// holds the height of the tops.
+// render/view/echo_outline.h -- finds where echo is in a grid, or in all grids of a loop.
+//
+// For each small square of columns, the outline counts the columns that reach each of several
+// thresholds, and holds the height of the tops.
 //
 // Threads   An EchoOutline may be used by one thread at a time.
 // Errors    None.
-// Cost      Reads the codes of every second column in each direction of bricks with values, once.
+// Cost      Reads every second column along both axes, once, in bricks with values.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ class EchoOutline {
   public:
     static constexpr int tile_columns = 4;
     static constexpr std::array<double, 5> thresholds_dbz = {40, 35, 30, 20, 5};
-    // Arrays of counts have one place for each threshold, then one for all columns with a value.
+    // Arrays of counts have one place for each threshold, and then one for all columns with a
+    // value.
     static constexpr std::size_t all_columns = thresholds_dbz.size();
 
     EchoOutline() = default;
@@ -30,7 +32,7 @@ class EchoOutline {
     // Adds a grid. Ignores a grid whose spec differs from the first grid's.
     void add(const grid::BrickView& view, level2::Moment moment);
 
-    // A square of columns: how many of them reach each threshold, how many have a value, and the
+    // A square of columns: how many of these reach each threshold, how many have a value, and the
     // height above sea level of the highest cell that counts as a top.
     struct Tile {
         std::array<std::int32_t, all_columns + 1> columns{};
@@ -44,13 +46,13 @@ class EchoOutline {
                       static_cast<std::size_t>(y)];
     }
     [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
-    // Returns an edge of the tiles, in meters from the grid's middle. The edge after the last tile
-    // is the edge of the grid.
+    // Returns the west edge of a tile, in meters from the middle of the grid. For the index after
+    // the last tile, it returns the edge of the grid.
     [[nodiscard]] double west_m(int x) const;
     [[nodiscard]] double south_m(int y) const;
-    // Returns the area that each counted column represents.
+    // Returns the area that a counted column stands for.
     [[nodiscard]] double column_km2() const;
-    // Returns the counts of all tiles together.
+    // Returns the sums of the counts over all tiles.
     [[nodiscard]] std::array<double, all_columns + 1> columns() const;
 
   private:
@@ -61,7 +63,7 @@ class EchoOutline {
 };
 
 // Returns true if there is echo, but 20 dBZ covers less than 150 km2 and 30 dBZ less than 60 km2.
-// Such echo is insects, birds, dust, the ground about the radar, or light snow.
+// Such echo comes from insects, birds, dust, the ground near the radar, or light snow.
 [[nodiscard]] bool is_clear_air(const EchoOutline& outline);
 
 }  // namespace stormcellar::render

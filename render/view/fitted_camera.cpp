@@ -11,14 +11,15 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double least_area_km2 = 60;  // a smaller area is only specks
-constexpr double range_share = 0.02;   // of the columns beyond each end of the region
+constexpr double least_area_km2 = 60;  // anything smaller is only specks
+constexpr double range_share = 0.02;   // of the columns, is left out at each end of the region
 constexpr double wider_share = 0.12, wider_m = 5e3;
 constexpr double least_half_m = 15e3;  // of the region, in each direction
 constexpr double filled_share = 0.84;
 constexpr double fitted_field_of_view_deg = 40;
 constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 45;
-constexpr double long_ratio = 1.8;  // a region of at least this length to width is a line
+// A region with this ratio of length to width, or a larger one, is a line.
+constexpr double long_ratio = 1.8;
 constexpr double least_top_m = 2e3;
 constexpr double sun_from_camera_deg = 65, sun_height_deg = 40;
 constexpr double earth_diameter_m = 2 * 6371e3;
@@ -31,7 +32,7 @@ double scalar_product(const Vec3& a, const Vec3& b) {
 // The region that is shown, in meters from the grid's middle.
 struct Region {
     double west_m = 0, east_m = 0, south_m = 0, north_m = 0, top_m = 0;
-    std::size_t of_threshold = all_columns;  // its columns reach this threshold
+    std::size_t of_threshold = all_columns;  // the columns of the region reach this threshold
 
     [[nodiscard]] double x_m() const { return 0.5 * (west_m + east_m); }
     [[nodiscard]] double y_m() const { return 0.5 * (south_m + north_m); }
@@ -48,19 +49,19 @@ void for_each_tile(const EchoOutline& outline, Each each) {
     }
 }
 
-// Returns the highest threshold that enough columns reach, or all columns if there is no such
-// threshold. Returns none if there is no value at all.
+// Returns the highest threshold that enough columns reach, or all columns if no threshold is
+// reached. Returns none if there is no value at all.
 std::optional<std::size_t> threshold_shown(const EchoOutline& outline) {
     const auto columns = outline.columns();
     for (std::size_t k = 0; k < all_columns; ++k) {
-        if (k == 1) continue;  // 35 dBZ only adds columns to the region of 40 dBZ
+        if (k == 1) continue;  // 35 dBZ only adds columns to a region of 40 dBZ
         if (columns[k] * outline.column_km2() >= least_area_km2) return k;
     }
     if (!(columns[all_columns] > 0)) return std::nullopt;
     return all_columns;
 }
 
-// Returns the range along one axis that holds all but a small share of the columns.
+// Returns the range along one axis that holds all columns but a small share.
 std::pair<int, int> middle_range(const std::vector<double>& counts) {
     double all = 0;
     for (const double count : counts)
@@ -129,7 +130,7 @@ std::vector<Column> columns_of(const EchoOutline& outline, const Region& region)
     return columns;
 }
 
-// Returns the height that the tops of nearly all columns stay below.
+// Returns a height that is above the tops of nearly all columns.
 double usual_top_m(std::vector<Column> columns) {
     if (columns.empty()) return least_top_m;
     const auto place = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(columns.size() - 1));
@@ -138,7 +139,7 @@ double usual_top_m(std::vector<Column> columns) {
     return std::max(columns[static_cast<std::size_t>(place)].top_m, least_top_m);
 }
 
-// Returns the direction from which the long side of the columns is seen, near the south.
+// Returns the direction, near south, from which the camera sees the long side of the columns.
 double azimuth_for(const std::vector<Column>& columns) {
     double sum = 0, x = 0, y = 0;
     for (const Column& c : columns) {
@@ -157,13 +158,14 @@ double azimuth_for(const std::vector<Column>& columns) {
     const double middle = 0.5 * (xx + yy);
     const double apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(middle + apart > long_ratio * long_ratio * (middle - apart))) return usual_azimuth_deg;
-    // The long axis, counterclockwise from east. The camera looks from the right side of this axis.
+    // The angle of the long axis, counterclockwise from east. The camera is on the right side of
+    // it.
     const double axis_deg = 0.5 * std::atan2(xy, 0.5 * (xx - yy)) / degree;
     const double turn_deg = std::clamp(-axis_deg, -farthest_turn_deg, farthest_turn_deg);
     return usual_azimuth_deg + 5 * std::round(turn_deg / 5);
 }
 
-// Returns 0 for a region as small as a storm, 1 for a region as wide as a radar sees.
+// Returns 0 for a region as small as a storm, and 1 for a region as wide as a radar sees.
 double wideness(const Region& region) {
     constexpr double storm_m = 110e3, wide_m = 380e3;
     return std::clamp(std::log(region.side_m() / storm_m) / std::log(wide_m / storm_m), 0.0, 1.0);
@@ -174,9 +176,9 @@ double exaggeration_for(const Region& region) {
     return 0.5 * std::round(2 * std::clamp(wanted, 2.0, 5.0));
 }
 
-// Returns the factor of the opacity. In the usual curve of opacity, weak echo is a thin veil. If
-// nothing else is shown, weak echo is drawn more opaque. A wide region is drawn more opaque too.
-// Clear air has its own colors, which are opaque enough.
+// Returns the factor of the opacity. With the usual curve of opacity, weak echo is a thin veil.
+// Weak echo is drawn more opaque if nothing else is shown; so is a wide region. Clear air has its
+// own colors, which are opaque enough.
 double opacity_for(const Region& region) {
     constexpr std::array<double, all_columns + 1> factors = {1, 1, 2, 4, 1, 1};
     const double wide = 1 + 0.8 * wideness(region);
@@ -187,10 +189,10 @@ double fall_m(bool curved_earth, double x_m, double y_m) {
     return curved_earth ? (x_m * x_m + y_m * y_m) / earth_diameter_m : 0;
 }
 
-// The directions of a camera, and the extent of its picture.
+// The directions along which a camera looks, and the extent of its picture.
 struct Looks {
     Vec3 right{}, up{}, forward{};
-    double across = 0, upright = 0;  // tangents of half the angles that are filled
+    double across = 0, upright = 0;  // tangents of half the angles that the echo fills
 
     Looks(const Camera& camera, int width, int height) {
         const double azimuth = camera.azimuth_deg * degree, tilt = camera.tilt_deg * degree;
@@ -219,10 +221,11 @@ std::vector<Vec3> corners_of(const std::vector<Column>& columns, double top_m, d
     return corners;
 }
 
-// Returns the nearest place for a camera that looks along `looks` and has all points in its
-// picture. Each edge of the picture is a plane through the camera. With r, u and f the coordinates
-// along right, up and forward, a point is inside the left plane if r - r0 >= -k (f - f0). The
-// nearest place has the largest f0 for which left and right, and below and above, leave room.
+// Returns the nearest place from which a camera that looks along `looks` has all points in its
+// picture. Each edge of the picture is a plane through the camera. Let r, u and f be coordinates to
+// the right, up and forward. Then a point is inside the left plane if r - r0 >= -k (f - f0). The
+// nearest place has the largest f0 that leaves room between left and right, and between below and
+// above.
 Vec3 nearest_place(const std::vector<Vec3>& points, const Looks& looks) {
     constexpr double huge = std::numeric_limits<double>::infinity();
     double left = huge, right = -huge, below = huge, above = -huge;
@@ -243,7 +246,7 @@ Vec3 nearest_place(const std::vector<Vec3>& points, const Looks& looks) {
     return place;
 }
 
-// Returns the least distance from the focus for a camera that looks at it.
+// Returns the least distance from the focus for a camera that looks at the focus.
 double least_distance(const std::vector<Vec3>& points, const Vec3& focus, const Looks& looks) {
     double distance = 0;
     for (const Vec3& p : points) {

@@ -58,7 +58,8 @@ Status check_colors(const Scene& scene) {
     }
     const std::string wanted = unit_shown(scene);
     const std::string& unit = scene.colors->unit;
-    // A table that states no unit fits any picture. A table for RHO states that values have none.
+    // A table that states no unit fits any picture. A table for RHO states that its values have no
+    // unit.
     const bool of_numbers = unit_of(scene.colors->moment).empty();
     if (unit == wanted || (unit.empty() && !of_numbers)) return {};
     return fail(ErrorCode::bad_argument, "color table {} is {}, but the picture is {}",

@@ -69,11 +69,11 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
     return unknown_name("unit", name, names, "units are " + units_for_help());
 }
 
-// The units that were named so far, in the order of `quantities`.
+// The units that have been named so far, in the order of `quantities`.
 using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
 // Takes the unit for each quantity that it measures and that has no unit yet. Errors: bad_argument
-// if all these quantities have units.
+// if every such quantity already has a unit.
 Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;
@@ -109,7 +109,7 @@ Result<Units> units_from_names(std::string_view names) {
         if (!unit) return pass_on(unit);
         units.push_back(*unit);
     }
-    // A unit of several quantities comes last and applies to the quantities that are left.
+    // Units of several quantities come last, and apply to the quantities that have no unit yet.
     std::stable_partition(units.begin(), units.end(),
                           [](const UnitFacts* f) { return !is_of_several(*f); });
     NamedUnits named{};
@@ -127,7 +127,7 @@ std::string unit_names(const Units& units) {
     std::string names;
     for (const Quantity& quantity : quantities) {
         const std::string_view name = facts_of(units.*quantity.unit).name;
-        // A unit of both distances and heights is named once.
+        // Name a unit of both distances and heights only once.
         if (!names.empty() && names.ends_with("," + std::string(name))) continue;
         if (!names.empty()) names += ",";
         names += name;

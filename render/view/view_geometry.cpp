@@ -8,10 +8,10 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double margin = 1.04;  // factor for the size of the box, so that nothing touches the edge
+constexpr double margin = 1.04;  // enlarges the box, so that nothing touches the edge
 constexpr double single_level_m = 1000;
 constexpr double earth_radius_m = 6371e3;
-// how near a perspective camera sees, as a share of the farthest depth
+// the nearest depth that a perspective camera sees, as a share of the farthest depth
 constexpr double nearest_share = 1e-4;
 constexpr double flattest = 1e-6;  // a view that falls by less than this runs along the ground
 
@@ -23,7 +23,7 @@ Vec3 minus(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// Sine and cosine that are exact at the quarter turns, because most views are at these.
+// Sine and cosine, which are exact at quarter turns, because most views are at these.
 struct Turn {
     double sine, cosine;
 };
@@ -126,7 +126,7 @@ void ViewGeometry::fit_picture(const Camera& camera) {
     metres_per_pixel_ = margin * std::max(2 * across / width_, 2 * upright / height_) / camera.zoom;
 }
 
-// Places the camera. The field of view applies at zoom 1. A camera without a place of its own goes
+// Places the camera. The field of view is that of zoom 1. A camera without a place of its own moves
 // back until it sees the whole box.
 void ViewGeometry::place_eye(const Camera& camera) {
     const double half_angle = 0.5 * camera.field_of_view_deg * std::numbers::pi / 180;
@@ -151,7 +151,7 @@ void ViewGeometry::place_eye(const Camera& camera) {
     metres_per_pixel_ = std::max(to_middle, half_x_m_ * 1e-3) / focal_pixels_;
 }
 
-// Moves the camera aside, so that the point is where the middle of the box was.
+// Moves the camera sideways, so that it sees the point where it saw the middle of the box.
 void ViewGeometry::look_at(const Eye& point) {
     const Vec3 drawn = {point.x_m, point.y_m,
                         (point.height_m - drop_m(point.x_m, point.y_m)) * exaggeration_};
@@ -215,8 +215,8 @@ Vec3 ViewGeometry::point(Pixel pixel, double depth_m) const {
     return p;
 }
 
-// The height of the ray above the ground is a polynomial of the depth: c d^2 + b d + a. The ground
-// is at the first root where the height falls.
+// The height of the ray above the ground is c d^2 + b d + a, where d is the depth. The ground is at
+// the first root at which the height falls.
 std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     const Vec3 start = point(pixel, 0);
     const Vec3 step = along(pixel);
@@ -229,7 +229,7 @@ std::optional<GroundPoint> ViewGeometry::ground(Pixel pixel) const {
     if (c > 0) {
         const double inside = b * b - 4 * a * c;
         if (!(inside > 0)) return std::nullopt;
-        // The smaller root, in a form that does not subtract nearly equal numbers.
+        // Compute the smaller root in a form that does not subtract nearly equal numbers.
         const double root = std::sqrt(inside);
         depth = b < 0 ? 2 * a / (root - b) : -(b + root) / (2 * c);
     } else {
@@ -255,8 +255,8 @@ void ViewGeometry::ground_of_row(int y, GroundRow& row) const {
     }
 }
 
-// A row of pixels is level, because right() is level. So all rays of the row fall alike and meet a
-// flat ground at one depth.
+// Uses the fact that a row of pixels is level, because right() is level. So all rays of the row
+// fall alike, and meet a flat ground at one depth.
 void ViewGeometry::flat_ground_of_row(Pixel first, GroundRow& row) const {
     const double fall = along(first)[2];
     const double depth = -(point(first, 0)[2] - ground_m_ * exaggeration_) / fall;
