@@ -46,8 +46,8 @@ class EchoOutline {
                       static_cast<std::size_t>(y)];
     }
     [[nodiscard]] const grid::GridSpec& spec() const { return spec_; }
-    // Returns the west edge of a tile, in meters from the middle of the grid. For the index after
-    // the last tile, it returns the edge of the grid.
+    // Return the west or the south edge of a tile, in meters from the middle of the grid. For the
+    // index after the last tile, this is the edge of the grid.
     [[nodiscard]] double west_m(int x) const;
     [[nodiscard]] double south_m(int y) const;
     // Returns the area that a counted column stands for.

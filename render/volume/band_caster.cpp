@@ -7,7 +7,7 @@
 namespace stormcellar::render {
 
 // The steps of a row of tiles, and its pixels that wait for their rays. If few pixels of a tile
-// need a ray, pixels of the next tiles fill the packet; its rays then sample the steps of all these
+// need a ray, pixels of the next tiles fill the packet. Its rays then sample the steps of all these
 // tiles.
 class BandCaster::Tiles {
   public:
@@ -25,8 +25,8 @@ class BandCaster::Tiles {
         const auto words = words_of(tile);
         return std::any_of(words.begin(), words.end(), [](std::uint64_t w) { return w != 0; });
     }
-    // Requests the ray of a pixel. The packet of rays is cast when it is full, when the fourth tile
-    // after its first one is entered, or when the row of tiles ends.
+    // Requests the ray of a pixel. The packet is cast when it is full, when the fourth tile after
+    // its first tile is entered, or when the row of tiles ends.
     void want(int x, int y) {
         if (!has_joined_) join();
         wanted_[count_++] = {x, y};
@@ -55,8 +55,8 @@ class BandCaster::Tiles {
         const std::size_t count = packet_words_.size();
         return std::span(words_).subspan(static_cast<std::size_t>(tile) * count, count);
     }
-    // For the first pixel of a tile, adds the steps of its tile to those of the packet. A ray may
-    // then sample steps of another tile. This costs time but changes nothing, because the ray finds
+    // Adds the steps of a tile to those of the packet, at the first pixel of the tile. A ray may
+    // then sample steps of another tile. This takes time but changes nothing, because the ray finds
     // only clear values there.
     void join() {
         const auto words = words_of(tile_);
@@ -90,7 +90,7 @@ BandCaster::BandCaster(const PacketVolume& volume, const RayMaker& maker, const 
       light_(light) {}
 
 // Requests the rays of every `stride`-th pixel of the row of tiles, tile by tile. A tile in which
-// nothing shows stays clear, because its rays would find nothing.
+// nothing shows stays clear: its rays would find nothing.
 template <class Ask>
 void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
     Tiles tiles(*this, tile_row);
@@ -102,7 +102,8 @@ void BandCaster::for_each_pixel(int tile_row, int stride, Ask ask) const {
         if (!tiles.enter(tile)) continue;
         const int left = tile * side;
         const int right = std::min(left + side, width_);
-        // Sixteen rays of a square share more values than sixteen rays of two rows.
+        // Go square by square: sixteen rays of a square share more values than sixteen rays of two
+        // rows.
         const int edge = std::max(small_tile_edge, stride);
         for (int from_y = top; from_y < bottom; from_y += edge) {
             for (int from_x = left; from_x < right; from_x += edge) {
@@ -126,7 +127,7 @@ void BandCaster::cast_first(int tile_row, int stride) const {
     for_each_pixel(tile_row, stride, [](Tiles& tiles, int x, int y) { tiles.want(x, y); });
 }
 
-// The pixels of a grid at which the picture bends, for the rows that a row of tiles depends on.
+// The pixels of a grid at which the picture bends, for the rows on which a row of tiles depends.
 class BandCaster::Bends {
   public:
     Bends(const BandCaster& caster, int tile_row, int stride, float most)
@@ -136,7 +137,7 @@ class BandCaster::Bends {
                 bends_.push_back(caster.bends(x, y, stride, most) ? 1 : 0);
         }
     }
-    // Returns true if the picture bends at a corner of the grid's cell that begins at a pixel.
+    // Returns true if the picture bends at a corner of the cell of the grid that begins at a pixel.
     [[nodiscard]] bool any(int x, int y) const {
         const char* corner = bends_.data() +
                              static_cast<std::ptrdiff_t>((y - top_) / stride_) * across_ +
@@ -156,8 +157,9 @@ void BandCaster::refine(int tile_row, int stride, float tolerance) const {
                    [&](Tiles& tiles, int x, int y) { refine_cell(tiles, x, y, stride, bends); });
 }
 
-// Returns true if the picture bends at a pixel of the grid, along a row or a column, in its colors,
-// its opacity or its light. At the edge of the picture this cannot be known, and counts as no bend.
+// Returns true if the picture bends at a pixel of the grid, along its row or its column, in its
+// colors, its opacity or its light. At the edge of the picture, this cannot be known and counts as
+// no bend.
 bool BandCaster::bends(int x, int y, int stride, float most) const {
     const auto bends_along = [&](int across, int down) {
         const float* before = at(x - across, y - down);
@@ -174,9 +176,9 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
     return y >= stride && y + stride < height_ && bends_along(0, stride);
 }
 
-// Fills the half-way pixels of one cell of the grid. Interpolates these pixels if the picture bends
-// at none of the cell's corners, and otherwise casts their rays. Beyond the last column and row of
-// the picture there are no pixels to interpolate from, so those rays are cast.
+// Fills the half-way pixels of one cell of the grid. If the picture bends at none of the cell's
+// corners, interpolates these pixels; otherwise casts their rays. Beyond the last column and row of
+// the picture there are no pixels to interpolate from, so those rays are always cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);
@@ -191,7 +193,7 @@ void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends
 
 void BandCaster::interpolate(int x, int y, int stride) const {
     const int half = stride / 2;
-    // `pixel` returns the numbers of a pixel, of which there are `count`.
+    // `pixel` returns the numbers of a pixel; there are `count` of them.
     const auto fill = [&](auto pixel, int count) {
         const float* a = pixel(x, y);
         const float* b = pixel(x + stride, y);

@@ -1,12 +1,12 @@
 // render/volume/band_caster.h -- draws one row of tiles of the picture, and decides which of its
 // rays must be cast.
 //
-// Where cells are larger than pixels, the picture is smooth between them. So rays are cast on a
-// grid of `stride` pixels first, and then the stride is halved, down to every pixel. Where the
-// picture is nearly straight, the pixels in between are interpolated; elsewhere their rays are
-// cast. The second differences of the colors on the grid say how straight the picture is: in the
-// middle between two neighbors, a straight line is off by an eighth of the second difference. With
-// a stride of at most the width of a cell, no cell falls between the first rays.
+// If cells are larger than pixels, the picture is smooth inside them. So rays are first cast on a
+// grid of `stride` pixels. Then the stride is halved again and again, down to every pixel. Pixels
+// in between are interpolated if the picture is nearly straight there; otherwise their rays are
+// cast. The second differences of the colors on the grid tell how straight the picture is: in the
+// middle between two neighbors, a straight line is off by an eighth of the second difference. If
+// the stride is at most the width of a cell, the first rays miss no cell.
 //
 // Threads   Immutable. Many threads may work on the bands of one pass; a pass may begin only when
 //           the previous pass has ended.
@@ -29,14 +29,13 @@ struct PixelSteps {
 class BandCaster {
   public:
     // All arguments must outlive the object. `rgba` has four floats for each pixel of the whole
-    // picture, and `light` has one float for each pixel if the volume has a light; else `light` is
-    // null.
+    // picture. `light` has one float for each pixel, or is null if the volume has no light.
     BandCaster(const PacketVolume& volume, const RayMaker& maker, const SliceMask& mask, int width,
                int height, float* rgba, float* light);
 
     // Clears the row of tiles, and draws every `stride`-th pixel in both directions.
     void cast_first(int tile_row, int stride) const;
-    // Halves the stride of the grid, which was `stride` pixels.
+    // Halves the stride of the grid, which is `stride` pixels before the call.
     void refine(int tile_row, int stride, float tolerance) const;
 
   private:

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// After the first value code is subtracted, the codes of states wrap to the top of the range, where
-// no value is.
+// Subtracting the first value code makes the codes of states wrap to the top of the range, where no
+// value is.
 template <class Code>
 void find_in(const std::byte* bytes, int edge, BlockCodes& found) {
     constexpr int row_cells = grid::brick_edge;

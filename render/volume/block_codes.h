@@ -1,4 +1,4 @@
-// render/volume/block_codes.h -- the range of values in each block of a brick.
+// render/volume/block_codes.h -- finds the range of values in each block of a brick.
 //
 // Threads   Pure.
 #pragma once
@@ -18,8 +18,8 @@ struct BlockCodes {
     std::array<std::uint16_t, most> least, largest;
 };
 
-// Finds the ranges for the codes of one whole brick (stormcellar/grid/brick_view.h), 1 or 2 bytes
-// each.
+// Finds the ranges for the codes of one whole brick (stormcellar/grid/brick_view.h). A code has 1
+// or 2 bytes.
 void find_block_codes(const std::byte* codes, int code_bytes, int edge, BlockCodes& found);
 
 }  // namespace stormcellar::render

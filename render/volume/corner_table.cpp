@@ -34,7 +34,7 @@ bool CornerTable::serves(const grid::BrickView& view, double samples) {
     return view.quantization.code_bytes == 1 && cells <= most_cells && samples >= 12 * cells;
 }
 
-// Makes room for the words. calloc() gives memory of zeros that takes no room until it is touched.
+// Makes room for the words. calloc() returns zeros that take no memory until they are touched.
 void CornerTable::make_room(const grid::BrickView& view) {
     stride_y_ = view.spec->nz() + 1;
     stride_x_ = view.spec->ny * stride_y_;
@@ -62,9 +62,9 @@ void CornerTable::fill_bricks(const grid::BrickView& view, int bx, int by) {
         fill_brick(view, columns, bz);
 }
 
-// Writes the words of one brick. The words also need the first columns of the neighbors to the east
-// and north. A brick without values is skipped unless an earlier grid left words in it; in a brick
-// that only touches a neighbor with values, only the columns along that border are written.
+// Writes the words of one brick, which also need the first columns of the neighbors to the east and
+// north. A brick without values is skipped, unless an earlier grid left words in it. If such a
+// brick touches a neighbor with values, only the columns along that border are written.
 void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns, int bz) {
     const auto [bx, by, past_x, past_y] = columns;
     const int levels = std::min(brick_edge, view.spec->nz() - bz * brick_edge);
@@ -96,8 +96,8 @@ void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns
             const std::uint8_t* c = row(x, north);
             const std::uint8_t* d = row(east, north);
             std::array<std::uint32_t, brick_edge> words;
-            // The codes of four columns are interleaved into words, 16 levels at a time, in a loop
-            // that the compiler vectorizes.
+            // Interleave the codes of four columns into words, 16 levels at a time, in a loop that
+            // the compiler vectorizes.
             for (std::size_t z = 0; z < words.size(); ++z) {
                 words[z] =
                     static_cast<std::uint32_t>(a[z]) | static_cast<std::uint32_t>(b[z]) << 8 |
@@ -109,7 +109,7 @@ void CornerTable::fill_brick(const grid::BrickView& view, const Columns& columns
             } else {
                 std::copy_n(words.begin(), levels, to);
             }
-            // the level above the last one
+            // the level above the last level
             if (bz + 1 == view.bricks_z) to[levels] = to[levels - 1];
         }
     }

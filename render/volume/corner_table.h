@@ -1,13 +1,14 @@
-// render/volume/corner_table.h -- the codes of four neighboring columns in one word for each cell.
+// render/volume/corner_table.h -- puts the codes of four neighboring columns into one word for each
+// cell.
 //
-// A sample needs the eight codes around it. In a grid file these codes are in up to eight bricks;
-// in this table they are in two consecutive words, which one load of 64 bits reads. Word (x, y, z)
+// A sample needs the eight codes around it. In a grid file, these codes are in up to eight bricks.
+// In this table, they are in two consecutive words, which one load of 64 bits reads. Word (x, y, z)
 // holds the codes of the cells (x, y), (x + 1, y), (x, y + 1) and (x + 1, y + 1) of level z, the
-// first in its low byte. Beyond the last cell of the grid along an axis, that cell is repeated.
-// Cells of bricks without any value are 0, whatever their state.
+// first of them in its low byte. The last cell along an axis is repeated beyond the edge of the
+// grid. Cells of bricks without any value are 0, whatever their state.
 //
-// The table takes four bytes for each cell of bricks with values, and time to fill. The table saves
-// time if there are many samples for each cell, which serves() decides.
+// The table takes four bytes for each cell of bricks with values, and time to fill. It saves time
+// if there are many samples for each cell; serves() decides this.
 //
 // Threads   fill() may be called by one thread at a time; then many threads may read.
 #pragma once
@@ -23,20 +24,20 @@ namespace stormcellar::render {
 
 class CornerTable {
   public:
-    // Returns true for grids of up to 2^24 cells with codes of one byte, if each cell would be
-    // sampled 12 times or more without any skipping. With fewer samples, a frame is faster without
-    // the table.
+    // Returns true for grids of up to 2^24 cells with codes of one byte, if rays without any
+    // skipping would sample each cell 12 times or more. With fewer samples, a frame is faster
+    // without the table.
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
-    // Takes the codes of a grid for which serves() is true. This is faster if the last grid had the
+    // Takes the codes of a grid for which serves() is true. It is faster if the last grid had the
     // same size.
     void fill(const grid::BrickView& view, int threads);
 
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.get());
     }
-    // Return how many words the next cell along x or y is away. The next cell along z is the next
-    // word.
+    // Return the distance, in words, to the next cell along x or y. The next cell along z is the
+    // next word.
     [[nodiscard]] std::int32_t stride_x() const { return stride_x_; }
     [[nodiscard]] std::int32_t stride_y() const { return stride_y_; }
 

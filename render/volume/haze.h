@@ -1,9 +1,9 @@
 // render/volume/haze.h -- shows air that no beam saw as a veil behind the echo.
 //
-// The opacity of the haze along a ray is most_haze * (1 - exp(-s / L)), where s is the length of
-// the ray through air that was not seen, in meters of drawn space, and L is a fifth of the depth of
-// the box. Air that was seen, with or without echo, has no haze. The haze is behind all echo, so
-// that colors stay exact.
+// The opacity of the haze along a ray is most_haze * (1 - exp(-s / L)). s is the length of the ray
+// through air that was not seen, in meters of drawn space; L is a fifth of the depth of the box.
+// Air that was seen has no haze, whether it has echo or not. The haze is behind all echo, so that
+// colors stay exact.
 //
 // Accuracy  A coarse cell of 4 x 4 columns and 2 levels holds only the fraction of its cells that
 //           were not seen. Rays are cast for every fourth pixel in both directions and interpolated
@@ -19,7 +19,7 @@ namespace stormcellar::render {
 
 inline constexpr double most_haze = 0.6;
 
-// Returns a color behind haze of this color and opacity.
+// Returns the color that results if haze of this color and opacity is behind a color.
 [[nodiscard]] Rgba8 veiled(Rgba8 color, Rgba8 haze, double opacity);
 
 // Draws the haze over `picture`, which has the size of the geometry.

@@ -1,8 +1,8 @@
-// render/volume/lanes-inl.h -- vectors of numbers, one lane for each of several rays.
+// render/volume/lanes-inl.h -- defines vectors of numbers, with one lane for each of several rays.
 //
 // This file is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
-// The result of a ray does not depend on the rays beside it. So the number of lanes, which depends
-// on the target, changes no bit.
+// A ray's result does not depend on the rays beside it. So the number of lanes, which differs
+// between targets, changes no bit.
 #if defined(STORMCELLAR_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_LANES_INL
 #undef STORMCELLAR_LANES_INL
@@ -35,7 +35,7 @@ HWY_INLINE Number load_as(const std::byte* from) {
 }
 
 // Stores a vector, so that its numbers can be read one by one. The asm statement keeps compilers
-// from reading them with shuffles instead, which is slower.
+// from replacing these reads by shuffles, which are slower.
 class LaneNumbers {
   public:
     HWY_INLINE explicit LaneNumbers(IntVec numbers) {
@@ -63,8 +63,7 @@ HWY_INLINE Halves halves_of(Word word) {
 }
 #else
 
-// Makes a vector of `width` lanes from the blocks of 128 bits block(first), block(first + 4) and so
-// on.
+// Makes a vector of `width` lanes from 128-bit blocks: block(first), block(first + 4) and so on.
 template <int width, class Block>
 HWY_INLINE auto blocks_from(int first, Block block) {
     if constexpr (width == 4) {
@@ -79,8 +78,8 @@ HWY_INLINE auto blocks_from(int first, Block block) {
     }
 }
 
-// Returns the halves of word(lane) for all lanes. Everything stays in registers, because reading a
-// vector from memory must wait if its numbers were just stored one by one.
+// Returns the halves of word(lane) for all lanes. Everything stays in registers, because a vector
+// must not be read from memory right after its numbers were stored one by one: the read would wait.
 template <class Word>
 HWY_INLINE Halves halves_of(Word word) {
     const hn::Full64<std::uint64_t> one;

@@ -1,9 +1,9 @@
-// render/volume/level_position.h -- converts a height into a position among the levels, with a
-// fraction.
+// render/volume/level_position.h -- converts a height into a position among the levels, which may
+// have a fraction.
 //
-// The position 2.25 is a quarter of the way from level 2 to level 3. The position is 0 below the
-// first level, and nz - 1 above the last. Evenly spaced levels need one multiplication. For other
-// levels, a table of buckets leads to the interval in a few steps.
+// The position 2.25 is a quarter of the way from level 2 to level 3. Below the first level the
+// position is 0, and above the last it is nz - 1. If levels are evenly spaced, one multiplication
+// is enough. Otherwise, a table of buckets leads to the interval in a few steps.
 //
 // Accuracy  Single precision, 1e-3 of a level over 1,024 levels.
 // Threads   Immutable.
@@ -19,7 +19,7 @@ namespace stormcellar::render {
 
 class LevelPosition {
   public:
-    // Heights are multiplied by `exaggeration` first.
+    // Heights are first multiplied by `exaggeration`.
     LevelPosition(const grid::GridSpec& spec, double exaggeration);
 
     [[nodiscard]] bool is_uniform() const { return uniform_; }
@@ -41,7 +41,7 @@ class LevelPosition {
     bool uniform_ = true;
     double offset_ = 0, slope_ = 0;
     std::vector<float> levels_;
-    std::vector<std::uint16_t> buckets_;  // the interval that holds the lower end of the bucket
+    std::vector<std::uint16_t> buckets_;  // the interval that holds the lower end of each bucket
     float buckets_per_metre_ = 0;
 };
 

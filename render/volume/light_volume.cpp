@@ -16,7 +16,7 @@ constexpr int sky_directions = 9;  // the zenith and eight directions around it
 constexpr float sky_share = 0.45F;
 constexpr float scattered_sky_share = 0.35F;
 constexpr double forward_g = 0.4;    // parameter of the phase function
-constexpr double least_phase = 0.4;  // share of the sun's light where the phase is weakest
+constexpr double least_phase = 0.4;  // the least share of the sun's light
 
 Vec3 direction(double azimuth_deg, double elevation_deg) {
     const double azimuth = azimuth_deg * degree;
@@ -25,7 +25,7 @@ Vec3 direction(double azimuth_deg, double elevation_deg) {
             std::sin(elevation)};
 }
 
-// Returns the phase function relative to its value straight into the sun.
+// Returns the phase function as a share of its value straight toward the sun.
 double relative_phase(double cosine) {
     const double g2 = forward_g * forward_g;
     const double phase = std::pow(1 + g2 - 2 * forward_g * cosine, -1.5);
@@ -44,8 +44,8 @@ Held held(float position, int size) {
             inside - static_cast<float>(below)};
 }
 
-// The path of the light through the coarse cells: plane by plane along the main axis, from the
-// plane `first` on, by `step`. From one plane to the next the light moves by (du, dv) cells across,
+// The path of the light through the coarse cells, plane by plane along the main axis: from the
+// plane `first` on, by `step`. From one plane to the next, the light moves (du, dv) cells sideways
 // and crosses length_m of air.
 struct LightWay {
     std::size_t main, u, v;
@@ -90,7 +90,7 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     extinction_.resize(index(sizes_[0] - 1, sizes_[1] - 1, sizes_[2] - 1) + 1);
     add_extinction(view, transfer, step_m);
 
-    // The sun and the nine directions of the sky are independent sweeps, one for each piece of
+    // The sun and the nine directions of the sky are independent sweeps, so each is a piece of
     // work.
     std::vector<std::vector<float>> swept(1 + sky_directions);
     for_each_piece(static_cast<int>(swept.size()), threads, [&](int i) {
@@ -117,8 +117,8 @@ LightVolume::LightVolume(const grid::BrickView& view, const TransferFunction& tr
     }
 }
 
-// Averages the extinction over the cells of each coarse cell. Cells without a value and beyond the
-// edge of the grid count as 0.
+// Averages the extinction over the cells of each coarse cell. Cells without a value, and places
+// outside the grid, count as 0.
 void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunction& transfer,
                                  double step_m) {
     const grid::GridSpec& spec = *view.spec;
@@ -152,8 +152,8 @@ void LightVolume::add_extinction(const grid::BrickView& view, const TransferFunc
     }
 }
 
-// Computes the transmittance from the side where the light comes in, plane by plane along the axis
-// with the most planes for each meter of the path. Beyond the grid the air is clear.
+// Computes the transmittance, beginning at the side where the light comes in, plane by plane along
+// the axis with the most planes for each meter of the path. Outside the grid, the air is clear.
 std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
     const LightWay way = way_of(towards, widths_m_, sizes_);
     const auto place = [&](int plane, int iu, int iv) {
@@ -164,8 +164,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // The light that passed each cell of the previous plane. A border of 1 stands for the clear air
-    // beyond the grid.
+    // The light that got through each cell of the previous plane. The border of 1 stands for the
+    // clear air outside the grid.
     const std::size_t row = static_cast<std::size_t>(sizes_[way.v]) + 2 * border;
     std::vector<float> passed((static_cast<std::size_t>(sizes_[way.u]) + 2 * border) * row, 1.0F);
     const auto pass = [&](int plane) {
@@ -179,8 +179,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
             }
         }
     };
-    // Each cell takes the light of the previous plane at the place where the light came from, which
-    // is between four cells.
+    // Each cell takes the light of the previous plane at the place from which the light comes. This
+    // place is between four cells.
     for (int n = 1; n < sizes_[way.main]; ++n) {
         const int plane = way.first + n * way.step;
         pass(plane - way.step);
@@ -192,7 +192,7 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
                 const float pv = static_cast<float>(iv) + way.dv;
                 const auto v0 = static_cast<int>(std::floor(pv));
                 const float sv = pv - static_cast<float>(v0);
-                // |du| and |dv| are at most 1, so these cells are at most in the border.
+                // |du| and |dv| are at most 1, so these cells are inside the border.
                 const float* from = passed.data() +
                                     static_cast<std::size_t>(u0 + static_cast<int>(border)) * row +
                                     static_cast<std::size_t>(v0 + static_cast<int>(border));

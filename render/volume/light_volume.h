@@ -1,10 +1,10 @@
-// render/volume/light_volume.h -- how much light reaches each part of a volume.
+// render/volume/light_volume.h -- computes how much light reaches each part of a volume.
 //
-// The object holds, on a coarse grid (4 x 4 columns, 2 levels), the transmittance of the echo
-// toward the sun and, as the mean over nine directions, toward the sky. The object is made once for
-// each time step. For each direction, the light is carried from plane to plane along the steepest
-// axis. Each plane reads the previous plane bilinearly, which blurs a shadow by about one coarse
-// cell for each coarse cell that it crosses.
+// The object holds two transmittances of the echo on a coarse grid (4 x 4 columns, 2 levels):
+// toward the sun and, as the mean over nine directions, toward the sky. It is made once for each
+// time step. For each direction, the light is carried from plane to plane along the steepest axis.
+// Each plane reads the previous plane bilinearly, which blurs a shadow by about one coarse cell for
+// each coarse cell that it crosses.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.
@@ -31,8 +31,8 @@ class LightVolume {
     LightVolume(const grid::BrickView& view, const TransferFunction& transfer, double step_m,
                 const ViewGeometry& geometry, const Light& light, int threads);
 
-    // Returns the light, 0..1, at a place in cells and levels: trilinear, constant beyond the
-    // edges.
+    // Returns the light, 0..1, at a place in cells and levels. It is trilinear, and constant beyond
+    // the edges.
     [[nodiscard]] float at(float x, float y, float z) const;
 
     // For tests: the light of the sun alone, and the number of coarse cells along an axis.

@@ -10,14 +10,14 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr float strength = 0.9F;  // larger values turn yellow to brown and red to pink
+constexpr float strength = 0.9F;  // larger values turn yellow into brown and red into pink
 constexpr float lightening = 1.6F * strength;
 constexpr float darkest_share = 0.5F, lightest = 0.98F;
-constexpr float least_alpha = 1.0F / 512;  // below it no light shows
+constexpr float least_alpha = 1.0F / 512;  // pixels with less opacity show no light
 constexpr float least_exposure = 0.7F, most_exposure = 1.4F;
 constexpr int exposure_steps = 10, exposure_stride = 5;
 
-// A function of 0 to 1 as a table with straight lines between its entries.
+// A function of 0 to 1, as a table with straight lines between its entries.
 template <std::size_t count>
 class UnitTable {
   public:
@@ -66,7 +66,7 @@ bool is_shown(const Rgb& linear) {
     return std::ranges::all_of(linear, [](float c) { return c >= -slack && c <= 1 + slack; });
 }
 
-// Returns the color, with as much of its chroma as displays can show.
+// Returns the color with as much of its chroma as displays can show.
 Rgb shown(const OkLab& color) {
     Rgb linear = linear_of(color);
     if (is_shown(linear)) return linear;
@@ -104,7 +104,7 @@ Rgb lit_color(const Rgb& color, float factor) {
     return {to_srgb(linear[0]), to_srgb(linear[1]), to_srgb(linear[2])};
 }
 
-// Reads every fifth pixel in both directions, and halves the range of the exposure.
+// Reads only every fifth pixel along both axes, and finds the exposure by halving its range.
 float exposure_of(const Layer& layer, const std::vector<float>& light) {
     struct Seen {
         float l, factor, alpha;

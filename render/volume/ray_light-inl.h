@@ -1,8 +1,8 @@
-// render/volume/ray_light-inl.h -- the factor of the light at a place of the volume
+// render/volume/ray_light-inl.h -- finds the factor of the light at a place of the volume
 // (render/volume/shade_field.h).
 //
 // This file is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
-// One load of 64 bits for each ray reads the eight codes around its place.
+// For each ray, one load of 64 bits reads the eight codes around its place.
 #if defined(STORMCELLAR_RAY_LIGHT_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_LIGHT_INL
 #undef STORMCELLAR_RAY_LIGHT_INL

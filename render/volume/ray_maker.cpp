@@ -46,8 +46,8 @@ struct Steps {
 };
 
 // Makes the rays of the pixels at (px, py), clipped to the box. In a parallel view all rays have
-// one step; in perspective each has its own. A ray crosses the two planes of each axis at two
-// values of t; it is inside the box between the last entry and the first exit over the three axes.
+// the same step; in perspective, each has its own. A ray crosses the two planes of each axis at two
+// values of t. It is inside the box from its last entry to its first exit, over the three axes.
 void make_packet(const RayLines& lines, const double* px, const double* py, RayPacket& rays) {
     const Doubles d;
     const hn::Rebind<float, Doubles> f;
@@ -102,9 +102,9 @@ struct Stretch {
         first = std::max(first, from);
         last = std::min(last, to);
     }
-    // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. This part is between the two roots.
-    // The roots are computed as q / c and a / q, so that no root is the difference of nearly equal
-    // numbers.
+    // Keeps the part where c t^2 + b t + a <= 0, for c >= 0. This is the part between the two
+    // roots, which are computed as q / c and a / q, so that neither is the difference of nearly
+    // equal numbers.
     void keep_below(double a, double b, double c) {
         if (c <= 0) {
             if (b == 0 && a > 0) last = first - 1;
@@ -137,7 +137,7 @@ struct Stretch {
 
 }  // namespace
 
-// The start and the step of a ray are linear in the pixel, so three pixels determine them for all.
+// The start and the step of a ray are linear in the pixel, so three pixels determine those of all.
 RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
                    const LevelPosition& levels, int slices)
     : geometry_(geometry) {
@@ -162,8 +162,8 @@ RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
     const double exaggeration = geometry.exaggeration();
     lines_.low = {-geometry.half_x_m(), -geometry.half_y_m(), geometry.bottom_m() * exaggeration};
     lines_.high = {geometry.half_x_m(), geometry.half_y_m(), geometry.top_m() * exaggeration};
-    // On a curved earth the drop is r^2 times a factor. Written in positions of cells, it can be
-    // added to the z of a sample without computing meters.
+    // On a curved earth the drop is r^2 times a factor. In positions of cells, it can be added to
+    // the z of a sample without computing meters.
     if (geometry.drop_per_m2() > 0) {
         const double factor = geometry.drop_per_m2() * exaggeration * z_slope;
         const Vec3& scale = lines_.scale;
@@ -189,8 +189,8 @@ RayPacket RayMaker::packet(std::span<const PixelPlace> pixels) const {
 }
 
 // Clips rays on a curved earth. The height above the curved sea level is a polynomial of second
-// degree in the step, so the top and the bottom of the box each give an inequality of second
-// degree. A ray that falls below the box has met the earth, which hides everything beyond.
+// degree in the step, so the top and the bottom of the box each give a quadratic inequality. A ray
+// that falls below the box has met the earth, which hides everything beyond.
 void RayMaker::clip_to_curved_box(std::span<const PixelPlace> pixels, RayPacket& rays) const {
     const double curve = geometry_.drop_per_m2() * geometry_.exaggeration();
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -16,12 +16,12 @@
 
 namespace stormcellar::render {
 
-// A pixel. Its middle is half a pixel farther in both directions.
+// A pixel. Its middle is half a pixel farther to the right and down.
 struct PixelPlace {
     int x = 0, y = 0;
 };
 
-// The geometry that all rays of a picture share, in drawn space: the start and the step of a ray
+// The geometry that all rays of a picture share, in drawn space. The start and the step of a ray
 // are linear in the pixel.
 struct RayLines {
     struct Linear {
@@ -43,7 +43,7 @@ class RayMaker {
     RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry, const LevelPosition& levels,
              int slices);
 
-    // Makes the rays of at most packet_rays pixels. Rays without a pixel see nothing.
+    // Makes the rays of at most packet_rays pixels. Rays that have no pixel see nothing.
     [[nodiscard]] RayPacket packet(std::span<const PixelPlace> pixels) const;
 
     // Returns null if the earth is drawn flat.

@@ -20,8 +20,8 @@ namespace stormcellar::render::HWY_NAMESPACE {
 
 constexpr float opaque_enough = 0.001F;  // a ray ends if less light than this gets through
 
-// Returns 1 - exp(-depth) for depths of 0 and more, to 2e-7. The library's exp() is not used,
-// because its fused operations give other bits on other targets.
+// Returns 1 - exp(-depth), within 2e-7, for depths of 0 and more. exp() of the library would give
+// other bits on other targets, because of its fused operations.
 HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const Floats f;
     const Ints i;
@@ -30,8 +30,8 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const FloatVec exponent = hn::Min(hn::Mul(depth, hn::Set(f, log2_e)), hn::Set(f, 120.0F));
     const IntVec whole = hn::ConvertTo(i, hn::Add(exponent, hn::Set(f, 0.5F)));
     const FloatVec part = hn::Sub(hn::ConvertTo(f, whole), exponent);
-    // A polynomial gives 2^part, with the coefficients ln(2)^n / n!. Its terms are added in pairs,
-    // so that few operations wait for each other.
+    // 2^part is a polynomial with the coefficients ln(2)^n / n!. Its terms are added in pairs, so
+    // that few operations wait for others.
     const auto term = [&](float constant, float slope) {
         return hn::Add(hn::Set(f, constant), hn::Mul(hn::Set(f, slope), part));
     };
@@ -41,12 +41,12 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const FloatVec high =
         hn::Add(term(9.6181291e-3F, 1.3333558e-3F), hn::Mul(hn::Set(f, 1.5403530e-4F), square));
     const FloatVec power = hn::Add(low, hn::Mul(high, hn::Mul(square, square)));
-    // 2^-whole is a float with the exponent -whole, so its bits are set directly.
+    // 2^-whole is a float whose exponent is -whole, so set its bits directly.
     const IntVec scale = hn::ShiftLeft<23>(hn::Sub(hn::Set(i, 127), whole));
     return hn::Sub(hn::Set(f, 1.0F), hn::Mul(power, hn::BitCast(f, scale)));
 }
 
-// The rays of a packet that fill the lanes of one vector.
+// The rays of a packet that are in the lanes of one vector.
 struct Rays {
     FloatVec x, y, z, step_x, step_y, step_z, length, enter, leave;
 
@@ -71,11 +71,11 @@ struct SliceFinds {
     HWY_ALIGN float valued[lanes];
     float t = 0;          // the slice
     bool any = false;     // some ray found a value
-    bool joined = false;  // this slice and the one before it are the two ends of one step
+    bool joined = false;  // this slice and the previous one are the two ends of a step
 };
 
-// Enumerates the slices at both ends of the steps whose bits are set. Two marked steps in a row
-// share the slice between them, which is visited only once.
+// Lists the slices at both ends of the steps whose bits are set. Two consecutive marked steps share
+// the slice between them, which is listed only once.
 class MarkedSlices {
   public:
     HWY_INLINE MarkedSlices(const std::uint64_t* mask, std::size_t words, int first, float leave)
@@ -85,10 +85,10 @@ class MarkedSlices {
           leave_(leave),
           bits_(word_ < words ? mask[word_] & ~std::uint64_t{0} << (first % 64) : 0) {}
 
-    // Returns false after the last slice. Sets `joined` if this slice and the one before it are the
+    // Returns false after the last slice. Sets `joined` if this slice and the previous one are the
     // two ends of a step.
     HWY_INLINE bool next(float& t, bool& joined) {
-        // The near end of this step was the last result; its far end comes now.
+        // The last result was the near end of this step, so its far end comes now.
         if (half_done_) {
             half_done_ = false;
             joined = true;
@@ -103,7 +103,7 @@ class MarkedSlices {
         const int step = static_cast<int>(word_) * 64 + std::countr_zero(bits_);
         if (static_cast<float>(step) >= leave_) return false;
         // If the step begins at the last slice, only its far end is new. Otherwise its near end
-        // comes now and its far end with the next call.
+        // comes now, and its far end comes in the next call.
         bits_ &= bits_ - 1;
         joined = step == last_;
         half_done_ = !joined;
@@ -121,10 +121,10 @@ class MarkedSlices {
     bool half_done_ = false;  // only the near end of the last step was returned
 };
 
-// Casts the rays of one vector from front to back. Slices are sampled in batches, and then the
-// steps of the batch are added up. Within a batch no sample waits for another, so the processor
-// works on several at once. `Source` reads the codes. Code for options that a scene does not use is
-// not compiled in.
+// Casts the rays of one vector from front to back. Slices are sampled in batches, and the steps of
+// a batch are added up after it. Within a batch no sample waits for another, so the processor works
+// on several at once. `Source` reads the codes. Options that a scene does not use are not compiled
+// in.
 template <class Source, bool curved, bool lit>
 class Caster {
   public:
@@ -162,11 +162,11 @@ class Caster {
   private:
     static constexpr int batch = 8;
 
-    // Samples a batch and adds up its steps. Returns true if no more light reaches through.
+    // Samples a batch and adds up its steps. Returns true if no more light gets through.
     HWY_INLINE bool take_batch(SliceFinds* finds, int count) {
         for (int slice = 1; slice <= count; ++slice)
             take_samples(finds[slice]);
-        // A step without a value at either end adds nothing.
+        // A step that has no value at either end adds nothing.
         for (int slice = 1; slice <= count; ++slice) {
             const SliceFinds& front = finds[slice - 1];
             const SliceFinds& back = finds[slice];
@@ -190,7 +190,7 @@ class Caster {
         hn::Store(samples.valued, f, finds.valued);
     }
 
-    // Returns where the rays are at a slice, in cells and levels.
+    // The places of the rays at a slice, in cells and levels.
     struct Positions {
         FloatVec x, y, level;
     };
@@ -205,8 +205,7 @@ class Caster {
     }
 
     // Adds the light of a step, times the part of the step that is seen. The light is read at the
-    // end with an even number, which two steps share, because it changes little from slice to
-    // slice.
+    // end that has an even number, which two steps share. It changes little from slice to slice.
     HWY_INLINE void add_light(float front_t, FloatVec seen) {
         const int front = static_cast<int>(front_t);
         const int even = front + (front & 1);
@@ -218,13 +217,13 @@ class Caster {
         light_sum_ = hn::Add(light_sum_, hn::Mul(seen, light_));
     }
 
-    // Adds the step between two slices. The two bins at its ends select an entry of the transfer
+    // Adds the step between two slices. The bins at its two ends select an entry of the transfer
     // function. If one end has no value, the bin of the other end is used for both.
     HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;
-        // The length of the step is the length of the ray inside the box. The mean share of cells
-        // with values at its two ends scales it, so that echo tapers to nothing.
+        // The length of the step is that of the ray inside the box. It is multiplied by the mean
+        // share of cells with values at the two ends, so that echo tapers to nothing.
         const FloatVec from = hn::Max(hn::Set(f, front.t), rays_.enter);
         const FloatVec to = hn::Min(hn::Set(f, back.t), rays_.leave);
         const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
@@ -246,9 +245,9 @@ class Caster {
         return add_looks(looks, length, front.t);
     }
 
-    // Composites a step over the earlier steps, front to back. The step adds its color times its
-    // opacity times the light that still reaches through, and takes its share of that light.
-    // `looks` is red, green, blue and optical depth for each reference length.
+    // Composites a step over the earlier steps, front to back. It adds its color, times its
+    // opacity, times the light that still gets through, and takes its share of that light. `looks`
+    // is red, green, blue and optical depth for each reference length.
     HWY_INLINE bool add_looks(const Fours& looks, FloatVec length, float front_t) {
         const Floats f;
         const FloatVec enough = hn::Set(f, opaque_enough);

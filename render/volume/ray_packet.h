@@ -1,7 +1,7 @@
 // render/volume/ray_packet.h -- casts sixteen rays through the volume: the slicer's inner loop.
 //
 // The loop uses SIMD by Highway, with a target that is chosen at run time. No operation is fused or
-// reordered, so every target gives the same bits. render/volume/slicer.h says what a ray does.
+// reordered, so every target gives the same bits. render/volume/slicer.h tells what a ray does.
 //
 // Threads   Plain data; many threads may call cast_packet().
 #pragma once
@@ -58,10 +58,10 @@ struct PacketVolume {
 };
 
 // Rays in positions of cells: position = start + t * step, where t counts slices from the near end.
-// The third axis is a level, or, with PacketVolume::levels, a height of drawn space. With a curved
-// earth the position is curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 lower than the
-// height that it represents. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave,
-// it sees nothing.
+// The third axis is a level, or, with PacketVolume::levels, a height of drawn space. On a curved
+// earth, the position is curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 below the height
+// that it stands for. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave, it sees
+// nothing.
 struct RayPacket {
     float x[packet_rays], y[packet_rays], z[packet_rays];
     float step_x[packet_rays], step_y[packet_rays], step_z[packet_rays];
@@ -71,7 +71,7 @@ struct RayPacket {
 
 // Computes red, green, blue (premultiplied) and alpha of each ray. Samples only the steps whose bit
 // is set. If the volume has a light, also computes the sum of the light factors along the ray,
-// weighted by the seen opacity; else `light` is not used.
+// weighted by the seen opacity; otherwise `light` is not used.
 void cast_packet(const PacketVolume& volume, const RayPacket& rays, const std::uint64_t* mask,
                  std::size_t words, float* rgba, float* light);
 

@@ -1,8 +1,8 @@
-// render/volume/ray_samples-inl.h -- the values that the rays of all lanes find at one slice.
+// render/volume/ray_samples-inl.h -- finds the values at one slice for the rays of all lanes.
 //
 // This file is a part of render/volume/ray_packet.cpp, which is compiled once for each SIMD target.
-// The eight codes around a point are loaded one ray after the other and put together in general
-// registers, because gathers cost more on today's machines.
+// The eight codes around a point are loaded for one ray after the other and combined in general
+// registers, because gathers are slower on today's machines.
 #if defined(STORMCELLAR_RAY_SAMPLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef STORMCELLAR_RAY_SAMPLES_INL
 #undef STORMCELLAR_RAY_SAMPLES_INL
@@ -18,15 +18,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 
-// For each ray, a bin of the transfer function and the share of valued cells.
+// For each ray, a bin of the transfer function and the share of cells that have values.
 struct Samples {
-    // The compiler would make an implicit constructor for the default target, not for this target.
+    // An implicit constructor would be compiled for the default target, not for this target.
     HWY_INLINE Samples() {}
     IntVec bin;
     FloatVec valued;
 };
 
-// A place along one axis: the cell below it, and the distance beyond that cell, in cells.
+// A place along one axis: the cell below it, and its distance from that cell, in cells.
 struct Place {
     IntVec cell;
     FloatVec beyond;
@@ -45,14 +45,14 @@ struct Places {
     Place x, y, z;
 };
 
-// The eight codes around a place. The number of a code has a bit for its side in x (bit 0), y (bit
-// 1) and z (bit 2).
+// The eight codes around a place. The number of a code has one bit for its side along each axis: x
+// (bit 0), y (bit 1) and z (bit 2).
 struct Corners {
     HWY_INLINE Corners() {}  // as for Samples
     IntVec code[8];
 };
 
-// Takes two words of a table of corners apart: the lower four codes and the upper four.
+// Splits two words of a table of corners into the lower four codes and the upper four.
 HWY_INLINE Corners corners_of(const Halves& levels) {
     const IntVec byte = hn::Set(Ints(), 0xFF);
     const auto unpack = [&](IntVec word, IntVec* codes) {
@@ -84,11 +84,11 @@ struct FromTable {
 
 // Takes the codes from the bricks themselves.
 struct FromBricks {
-    // The offsets of the four lower codes, by their sides in x and y.
+    // The offsets of the four lower codes, by their sides along x and y.
     using Columns = LaneNumbers[4];
 
-    // Adds the offset of the cell along one axis to `at`, and returns the distance to the next
-    // cell: usually `next`, more across the border of a brick, and 0 at the end of the grid.
+    // Adds the offset of the cell along one axis to `at`. Returns the distance to the next cell:
+    // usually `next`, more across the border of a brick, and 0 at the end of the grid.
     template <std::int32_t next>
     static HWY_INLINE IntVec step_along(IntVec cell, std::int32_t last, std::int32_t brick_stride,
                                         IntVec& at) {
@@ -124,8 +124,8 @@ struct FromBricks {
                                       : singly<std::uint16_t>(volume.codes, columns, rise);
     }
 
-    // Loads the codes of both levels of a column as one number. The two codes are side by side
-    // unless the place is in the uppermost level of a brick.
+    // Loads the codes of both levels of a column as one number. The two are side by side, except in
+    // the uppermost level of a brick.
     static HWY_INLINE Corners paired(const std::byte* codes, const Columns& columns) {
         const Ints i;
         const Halves words = halves_of([&](int lane) {
@@ -147,8 +147,8 @@ struct FromBricks {
         return corners;
     }
 
-    // Loads one code after the other, for codes of two bytes and across the border between two
-    // bricks.
+    // Loads one code after the other. This is for codes of two bytes, and across the border between
+    // two bricks.
     template <class Code>
     static HWY_INLINE Corners singly(const std::byte* codes, const Columns& columns,
                                      const LaneNumbers& rise) {
@@ -228,8 +228,8 @@ HWY_INLINE IntVec bin_of(const PacketVolume& volume, FloatVec code) {
 }
 
 // Mixes the eight codes around each ray. Returns false if no ray finds a value; then all shares are
-// 0. If all eight cells of a ray have values, which is usual inside echo, the faster mean_of_all()
-// gives its value. mean_of_some() is only computed if some ray needs it.
+// 0. Inside echo, usually all eight cells of a ray have values, and the faster mean_of_all() gives
+// its value. mean_of_some() is computed only if some ray needs it.
 HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, const Places& at,
                             Samples& samples) {
     const Floats f;
@@ -257,8 +257,8 @@ HWY_INLINE bool mix_corners(const PacketVolume& volume, const Corners& corners, 
     return true;
 }
 
-// Turns heights of drawn space into levels, one ray after the other, if the levels are not evenly
-// spaced.
+// Converts heights of drawn space into levels, one ray after the other, if the levels are not
+// evenly spaced.
 HWY_INLINE FloatVec level_of(const PacketVolume& volume, FloatVec z) {
     if (volume.levels == nullptr) return z;
     const Floats f;
@@ -269,7 +269,7 @@ HWY_INLINE FloatVec level_of(const PacketVolume& volume, FloatVec z) {
     return hn::Load(f, heights);
 }
 
-// Returns how much the drawn curve of the earth lowers a place; see RayPacket.
+// Returns how much the drawn curve of the earth lowers a place (see RayPacket).
 HWY_INLINE FloatVec drop(const CurvedLevels& curve, FloatVec x, FloatVec y) {
     const Floats f;
     const FloatVec dx = hn::Sub(x, hn::Set(f, curve.middle_x));

@@ -11,7 +11,7 @@ double distance(const Vec3& a, const Vec3& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// The cells below and above a position, and the share of the way from the first to the second.
+// The cells below and above a position, and the position's share of the way between them.
 struct Pair {
     std::size_t below, above;
     double share;
