@@ -10,9 +10,9 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr float lit_side = 0.4F;  // how much lighter a steep surface becomes if it faces the sun
+constexpr float lit_side = 0.4F;  // a steep surface that faces the sun gets lighter by this share
 constexpr float through_share = 0.45F, usual_through = 0.6F;
-constexpr float edge_share = 0.25F;    // how much lighter an edge is, seen along its surface
+constexpr float edge_share = 0.25F;    // an edge seen along its surface gets lighter by this share
 constexpr float half_steep = 1.5e-3F;  // dB per meter of drawn space
 constexpr float highest_value = 60, value_of_others = 30;
 constexpr std::size_t state_block_bytes = grid::brick_cells / 4;
@@ -45,7 +45,7 @@ class ShadeField::Baker {
             static_cast<float>(std::max(1.0, (spec.levels_m.back() - spec.levels_m.front()) /
                                                  std::max(1, spec.nz() - 1)) *
                                geometry.exaggeration());
-        // Differences reach from the previous coarse cell to the next one.
+        // Differences are between the previous and the next coarse cell.
         per_m_ = {static_cast<float>(0.5 / (cells_across * spec.cell_width_m())),
                   static_cast<float>(0.5 / (cells_across * spec.cell_height_m())), 0.5F / level_m};
         place_eye();
@@ -80,7 +80,7 @@ class ShadeField::Baker {
         return (as_index(x) * as_index(sizes_[1]) + as_index(y)) * as_index(sizes_[2]);
     }
 
-    // Adds a column of the grid to sums and counts of its coarse column, level by level.
+    // Adds a column of the grid to the sums and counts of its coarse column, level by level.
     void add_column(int x, int y, std::span<float> sums, std::span<float> counts) const {
         const std::size_t offset = view_.offset_x(x) + view_.offset_y(y);
         for (int bz = 0; bz < view_.bricks_z; ++bz) {
@@ -119,8 +119,8 @@ class ShadeField::Baker {
         count += seen ? 1.0F : 0.0F;
     }
 
-    // Gives each unseen level of a coarse column the mean of the next seen level below, or of the
-    // lowest seen level.
+    // Gives each unseen level of a coarse column the mean of the next seen level below it, or, if
+    // there is none, of the lowest seen level.
     static void fill_holes(std::span<float> means, std::span<const float> counts) {
         std::size_t first = 0;
         while (first < counts.size() && counts[first] == 0)
@@ -144,7 +144,7 @@ class ShadeField::Baker {
         }
     }
 
-    // Makes the first pass: averages coarse columns, and smooths each along itself.
+    // Makes the first pass: averages coarse columns, and smooths each along its height.
     void average(int x) {
         std::vector<float> sums(as_index(sizes_[2])), counts(as_index(sizes_[2]));
         for (int y = 0; y < sizes_[1]; ++y) {
@@ -163,8 +163,9 @@ class ShadeField::Baker {
         }
     }
 
-    // Smooths rows of `count` columns that are `stride` numbers apart, each of `length` numbers.
-    // Keeps the last two columns as they were before smoothing, because the next columns need them.
+    // Smooths rows of `count` columns of `length` numbers each. The columns are `stride` numbers
+    // apart. Keeps the last two columns as they were before smoothing, because the next columns
+    // need them.
     static void smooth_rows(float* from, std::size_t stride, int count, std::size_t length) {
         std::vector<float> before((smoothing_reach + 1) * length);
         const auto row = [&](int i) { return from + as_index(i) * stride; };
@@ -191,7 +192,7 @@ class ShadeField::Baker {
         smooth_rows(values_.data() + column(x, 0), as_index(sizes_[2]), sizes_[1],
                     as_index(sizes_[2]));
     }
-    // Smooths all rows along x. Each piece of work has some columns of all rows.
+    // Smooths all rows along x. Each piece of work has the same columns of all rows.
     void smooth_along_x(int threads) {
         constexpr int columns = 16;
         for_each_piece((sizes_[1] + columns - 1) / columns, threads, [&](int piece) {
@@ -202,9 +203,9 @@ class ShadeField::Baker {
         });
     }
 
-    // The last pass computes the factor of each coarse cell with any echo within reach of the
-    // smoothing; all other cells have the factor 1. Skipping cells below 1 dB too saved 2 % of the
-    // time, but erred by up to 3 L* in weak snow.
+    // Makes the last pass: computes the factor of each coarse cell that has echo within the reach
+    // of the smoothing. All other cells have the factor 1. Skipping cells below 1 dB as well saved
+    // 2 % of the time, but gave errors of up to 3 L* in weak snow.
     void shade(int x) {
         const Vec3 sun_drawn = sun_direction(light_);
         const std::array<float, 3> sun = {static_cast<float>(sun_drawn[0]),
@@ -261,7 +262,7 @@ class ShadeField::Baker {
         return factor + edge;
     }
 
-    // Returns the direction of the view at a cell.
+    // Returns the direction of view at a cell.
     [[nodiscard]] std::array<float, 3> view_at(float x, float y, int z) const {
         const std::array<float, 3> away = {x * cell_m_[0] + from_eye_m_[0],
                                            y * cell_m_[1] + from_eye_m_[1],
@@ -272,7 +273,7 @@ class ShadeField::Baker {
         return {away[0] * scale, away[1] * scale, away[2] * scale};
     }
 
-    // Writes the words of a row of coarse columns, with the level above the last one.
+    // Writes the words of a row of coarse columns, and those of the level above the last level.
     void pack(int x, std::vector<std::uint32_t>& words) const {
         const int next_x = std::min(x + 1, sizes_[0] - 1);
         for (int y = 0; y < sizes_[1]; ++y) {

@@ -1,22 +1,22 @@
-// render/volume/shade_field.h -- how much each part of a volume is drawn lighter or darker than its
-// own color.
+// render/volume/shade_field.h -- computes how much lighter or darker than its own color each part
+// of a volume is drawn.
 //
-// On a grid of 2 x 2 columns and single levels, made once for each time step, the field holds the
-// factor
+// The field is made once for each time step, on a grid of 2 x 2 columns and single levels. It holds
+// the factor
 //   shade = S T + 0.25 s (1 - |n v|)^3,    S = 1 + 0.4 s n u,    T = 1 + 0.45 (t - 0.6)
-// where n is the direction in which the values fall, v the direction of the view and u of the sun.
-// With g the gradient of the values, s = g / (g + 1.5 dB per km of drawn space) says how much like
-// a surface the place is. t is the light that gets through from the sun and the sky
+// Here n is the direction in which the values fall, v the direction of view, and u the direction of
+// the sun. With g the gradient of the values, s = g / (g + 1.5 dB per km of drawn space) tells how
+// much the place is like a surface. t is the light that gets through from the sun and the sky
 // (render/volume/light_volume.h). s belongs to `gradient`, and t to `shadow` and `scattering`
 // (stormcellar/render/light.h). If a scene does not ask for these kinds of light, s = 0 or T = 1. A
 // factor of 1 does not change a color.
 //
 // The value of a cell is its reflectivity above 0 dBZ (or above the lowest color of the table, if
-// that is below 0), counted up to 60 dBZ; any value of another moment counts as 30. Values are
+// that is lower), counted up to 60 dBZ. Any value of another moment counts as 30. Values are
 // averaged over 2 x 2 columns and smoothed along each axis by 1-4-6-4-1. Air without echo counts as
-// 0. Cells that were not seen or are range folded take the value of the next seen cell below them,
-// or of the lowest seen cell of their column if there is none below, so that neither the cone of
-// silence nor the lowest beam looks like a surface.
+// 0. A cell that was not seen or is range folded takes the value of the next seen cell below it,
+// or, if there is none, of the lowest seen cell of its column. So neither the cone of silence nor
+// the lowest beam looks like a surface.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.
@@ -42,11 +42,11 @@ class ShadeField {
     ShadeField(const grid::BrickView& view, const ColorTable& table, const ViewGeometry& geometry,
                const Light& light, const LightVolume* volume, int threads);
 
-    // Returns the factor at a place in cells and levels: trilinear, constant beyond the edges. The
-    // rays of the slicer read the same factor, in single precision.
+    // Returns the factor at a place in cells and levels: trilinear, and constant beyond the edges.
+    // The rays of the slicer read the same factor in single precision.
     [[nodiscard]] double at(double x, double y, double z) const;
 
-    // Returns the codes of four neighboring columns in one word for each coarse cell, as in a
+    // Returns, for each coarse cell, the codes of four neighboring columns in one word, as in a
     // CornerTable.
     [[nodiscard]] const std::byte* words() const {
         return reinterpret_cast<const std::byte*>(words_.data());

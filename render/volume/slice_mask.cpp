@@ -16,7 +16,7 @@ namespace {
 
 using grid::brick_edge;
 
-// A bit may be set this many steps too early or too late, which covers the rounding of both sides.
+// A bit may be set this many steps too early or too late. This covers the rounding on both sides.
 constexpr double slack = 0.01;
 
 // Sets the bits from `first` to `last`, both included.
@@ -35,8 +35,8 @@ void set_bits(std::uint64_t* words, int first, int last) {
     words[to / 64] |= tail;
 }
 
-// Returns the edge of the blocks. Blocks about as wide as a tile of the picture are fine enough for
-// tiles; smaller blocks, or more blocks, cost more than they save.
+// Returns the edge of the blocks. Blocks about as wide as a tile of the picture are fine enough.
+// Smaller or more blocks take more time than they save.
 int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     constexpr double most_blocks = 1 << 18;
     const double cell_m = std::min(spec.cell_width_m(), spec.cell_height_m());
@@ -49,9 +49,9 @@ int block_edge_for(const grid::GridSpec& spec, const ViewGeometry& geometry) {
     return edge;
 }
 
-// Computes the interval along one axis that the cells from `first` to before `past` color. Values
-// are interpolated between cells, so the interval reaches to the centers of the neighboring cells,
-// or to the edge of the box if there are none.
+// Computes the interval along one axis that is colored by the cells from `first` to before `past`.
+// Values are interpolated between cells, so the interval extends to the centers of the neighboring
+// cells, or to the edge of the box if there are no neighbors.
 template <class Centre>
 void reach(int first, int past, int cells, double edge_low, double edge_high, Centre centre,
            double& low, double& high) {
@@ -78,9 +78,9 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
       block_edge_(block_edge_for(*view.spec, geometry)),
       boxes_(static_cast<std::size_t>(view.bricks_x)),
       row_ends_(static_cast<std::size_t>(tiles_down_)) {
-    // The boxes are sorted into the rows of tiles that they reach into, in two passes, so that the
-    // list needs no locks and does not depend on the number of threads. The first pass finds the
-    // boxes of each slab of bricks and counts them for each row.
+    // Sort the boxes into the rows of tiles that they reach. Two passes do this, so that the list
+    // needs no locks and does not depend on the number of threads. The first pass finds the boxes
+    // of each slab of bricks, and counts them for each row.
     const auto rows = static_cast<std::size_t>(tiles_down_);
     std::vector<std::size_t> places(boxes_.size() * rows);
     for_each_piece(view.bricks_x, threads, [&](int bx) {
@@ -94,7 +94,8 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
                 ++places[slab * rows + static_cast<std::size_t>(row)];
         }
     });
-    // The counts become the places where each slab writes its boxes into the list of each row.
+    // Turn the counts into the places at which each slab writes its boxes into the list of each
+    // row.
     std::size_t count = 0;
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t slab = 0; slab < boxes_.size(); ++slab)
@@ -102,7 +103,7 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
         row_ends_[row] = count;
     }
     in_rows_.resize(count);
-    // The second pass writes the numbers of the boxes to these places.
+    // In the second pass, write the numbers of the boxes to these places.
     for_each_piece(view.bricks_x, threads, [&](int bx) {
         const auto slab = static_cast<std::size_t>(bx);
         const Boxes& boxes = boxes_[slab];
@@ -115,8 +116,8 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
     });
 }
 
-// Adds boxes for the visible parts of a brick. The codes of the whole brick exclude most bricks.
-// The codes of blocks are computed only for the other bricks.
+// Adds boxes for the visible parts of a brick. The codes of the whole brick rule out most bricks,
+// so the codes of blocks are computed only for the others.
 void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
                           const std::array<int, 3>& brick, Boxes& boxes) const {
     const std::size_t index = view.brick_index(brick[0], brick[1], brick[2]);
@@ -132,7 +133,7 @@ void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& t
         return codes.largest[at] >= grid::first_value_code &&
                transfer.shows(codes.least[at], codes.largest[at]);
     };
-    // Visible blocks that are above each other make one box.
+    // Visible blocks on top of each other make one box.
     const int across = codes.across;
     for (int column = 0; column < across * across; ++column) {
         for (int z = 0; z < across; ++z) {
@@ -152,8 +153,8 @@ void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& t
     }
 }
 
-// Makes the box of a range of cells in drawn space: its reach along each axis, lowered by the drawn
-// curve of the earth, times the vertical exaggeration.
+// Makes the box of a range of cells in drawn space: its extent along each axis, lowered by the
+// drawn curve of the earth, times the vertical exaggeration.
 void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes& boxes) const {
     Box box{};
     reach(
@@ -165,8 +166,8 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     reach(
         cells.first[2], cells.past[2], spec.nz(), geometry_.bottom_m(), geometry_.top_m(),
         [&](int i) { return spec.levels_m[static_cast<std::size_t>(i)]; }, box.low[2], box.high[2]);
-    // The curve lowers the part of the box nearest to the middle of the grid least, and the
-    // farthest part most.
+    // The curve lowers the box least where it is nearest to the middle of the grid, and most where
+    // it is farthest.
     const auto nearest = [&](std::size_t axis) {
         return std::clamp(0.0, box.low[axis], box.high[axis]);
     };
@@ -180,7 +181,7 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     if (place_in_picture(box)) boxes.push_back(box);
 }
 
-// The place of a box in the picture, in pixels, and the distance of its farthest corner.
+// The place of a box in the picture, in pixels, and the distance of the box's farthest corner.
 struct SliceMask::Outline {
     double left, right, top, bottom, farthest_m;
 
@@ -192,8 +193,8 @@ struct SliceMask::Outline {
     }
 };
 
-// With parallel rays, the outline of a box is as wide as the projections of its three edges
-// together.
+// Uses parallel rays, for which the outline of a box is as wide as the projections of its three
+// edges together.
 SliceMask::Outline SliceMask::parallel_outline(const Box& box) const {
     Vec3 middle{};
     double across = 0, down = 0;
@@ -225,7 +226,7 @@ SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
             outline.add(geometry_.project(point));
         }
     }
-    // the camera is in the box or beside it, so the box may be anywhere in the picture
+    // The camera is in the box or beside it, so the box may be anywhere in the picture.
     if (behind) {
         outline.add({0, 0});
         outline.add({1.0 * geometry_.width(), 1.0 * geometry_.height()});
@@ -234,9 +235,8 @@ SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
 }
 
 // Finds the tiles and rows of the box, and widens the box by half a tile on each side. Then one ray
-// through the middle of a tile is enough for the whole tile: if that ray misses the widened box,
-// all rays of the tile miss the box. Returns false for a box beside the picture or behind the
-// camera.
+// through the middle of a tile stands for the whole tile: if it misses the widened box, all rays of
+// the tile miss the box. Returns false if the box is outside the picture or behind the camera.
 bool SliceMask::place_in_picture(Box& box) const {
     const Outline outline =
         geometry_.is_perspective() ? perspective_outline(box) : parallel_outline(box);
@@ -269,8 +269,8 @@ SliceMask::Direction SliceMask::direction(const Vec3& along) const {
 }
 
 // Sets the bits of the steps in which the ray through the middle of the tile is inside the widened
-// box. The ray enters and leaves the pair of planes of each axis at two depths; the box holds the
-// part that is common to all three axes.
+// box. For each axis, the ray is between a pair of planes from one depth to another; it is inside
+// the box at the depths that all three axes have in common.
 void SliceMask::mark(const Box& box, const Vec3& start, const Direction& direction,
                      std::uint64_t* words) const {
     double first = 0;

@@ -1,11 +1,11 @@
-// render/volume/slice_mask.h -- tells, for each part of the picture, the slices that may show
-// anything.
+// render/volume/slice_mask.h -- tells which slices may show anything, for each part of the picture.
 //
 // The picture is divided into square tiles. Each tile has a bit for each step (between two slices).
-// The bit says whether any point of that step under any pixel of the tile may find a visible value.
+// The bit tells whether any pixel of the tile may find a visible value at any point of that step.
 // Bits err only on the safe side: a set bit may be useless, but a cleared bit never hides anything.
-// The least and the largest code of each brick decide whether the brick can be visible. Inside a
-// brick the codes of its blocks decide; blocks are 2 to 16 cells wide, about as wide as 8 pixels.
+// The least and the largest code of a brick tell whether the brick may be visible, and then the
+// codes of its blocks tell which parts may be. Blocks are 2 to 16 cells wide, about as wide as 8
+// pixels.
 //
 // Threads   Immutable; many threads may call fill_band().
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace stormcellar::render {
 
-// Edges of tiles in pixels. A small tile has the size of one packet of rays, so fewer steps are
+// Edges of tiles in pixels. A small tile is as large as one packet of rays, so that fewer steps are
 // sampled in vain.
 inline constexpr int tile_edge = 8, small_tile_edge = 4;
 
@@ -40,13 +40,14 @@ class SliceMask {
     bool fill_band(int tile_row, std::vector<std::uint64_t>& words) const;
 
   private:
-    // The space that visible cells may color: the cells, and the space up to their neighbors.
+    // The space that visible cells may color: the cells, and the space between them and their
+    // neighbors.
     struct Box {
         Vec3 low, high;  // in drawn space, widened by half a tile at the box's farthest corner
         int first_tile, last_tile, first_row, last_row;
     };
-    // The motion of the rays along each axis; `per_step` is 1 / step where the rays move along the
-    // axis.
+    // The motion of the rays along each axis. `per_step` is 1 / step, for the axes along which the
+    // rays move.
     struct Direction {
         Vec3 per_step;
         bool moves[3];
@@ -74,7 +75,7 @@ class SliceMask {
         std::uint32_t slab, box;
     };
     std::vector<Boxes> boxes_;           // for each slab of bricks
-    std::vector<BoxNumber> in_rows_;     // for each row of tiles, the boxes that reach into it
+    std::vector<BoxNumber> in_rows_;     // the boxes that reach into each row of tiles
     std::vector<std::size_t> row_ends_;  // where each row ends in in_rows_
 };
 

@@ -14,7 +14,7 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns the widest stride that leaves no cell between the first rays.
+// Returns the widest stride for which the first rays miss no cell.
 PixelSteps pixel_steps(const grid::GridSpec& spec, const ViewGeometry& geometry, double tolerance) {
     PixelSteps steps;
     if (!(tolerance > 0)) return steps;
@@ -58,7 +58,7 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     layer.height = geometry_.height();
     layer.rgba.resize(static_cast<std::size_t>(layer.width) *
                       static_cast<std::size_t>(layer.height) * 4);
-    // If the picture is interpolated between rays, about half of the rays are cast.
+    // If pixels between rays are interpolated, about half of the rays are cast.
     const bool all_rays = pixel_steps(*view.spec, geometry_, options_.pixel_tolerance).stride == 1;
     room.mask.emplace(view, geometry_, options_.slices, *transfer_, threads,
                       all_rays ? small_tile_edge : tile_edge);
@@ -78,9 +78,9 @@ void VolumeSlicer::prepare(const grid::BrickView& view, int threads, SlicerRoom&
     if (room.has_corners) room.corners.fill(view, threads);
 }
 
-// Casts the rays, one band of tiles after another on several threads. First come the rays on a grid
-// of `stride` pixels. Then the stride is halved each time, and only rays where the picture is not
-// smooth enough for interpolation are cast.
+// Casts the rays, one band of tiles after another, on several threads. First casts the rays of a
+// grid of `stride` pixels. Then halves the stride again and again, and casts only rays at which the
+// picture is not smooth enough for interpolation.
 void VolumeSlicer::cast(const grid::BrickView& view, int threads, SlicerRoom& room) const {
     const LevelPosition levels(*view.spec, geometry_.exaggeration());
     const RayMaker maker(*view.spec, geometry_, levels, options_.slices);

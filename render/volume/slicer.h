@@ -1,20 +1,19 @@
-// render/volume/slicer.h -- draws the volume as slices parallel to the picture, composited from
-// front to back.
+// render/volume/slicer.h -- draws the volume as slices parallel to the picture, and composites them
+// from front to back.
 //
 // The depth of the grid's box is divided into `slices` equal steps. Every ray samples the volume at
-// the planes between these steps, and where the ray enters and leaves the box.
-//   sample   Trilinear over the 8 cells around the point, without the cells that have no value. The
-//            sample's value is the weighted mean of the cells with a value, and its share is the
-//            sum of their weights. So echo tapers to nothing over one cell toward cells without a
-//            value, whatever their state, and no state ever adds a color. Up to half a cell beyond
-//            the outermost centers, the outermost cells continue.
+// the planes between these steps, and at the points at which it enters and leaves the box.
+//   sample   Trilinear over those of the 8 cells around the point that have a value: the weighted
+//            mean of their values. Its share is the sum of their weights. So echo tapers to nothing
+//            over one cell toward cells without a value, whatever their state, and no state ever
+//            adds a color. The outermost cells continue up to half a cell beyond their centers.
 //   step     The entry of the TransferFunction for the values at its two ends. The optical depth of
-//            the entry is multiplied by the mean of the shares at the two ends and by the length of
-//            the ray through the step, also where the box cuts the step. If one end has no value,
-//            the value of the other end is used for both. Colors mix in sRGB, as drawn.
-//   light    If the scene asks for it, one factor for each sample (stormcellar/render/light.h); a
-//            step takes the mean of both its ends.
-//   skipped  Stretches of a ray in bricks whose range of values is clear (this is exact), and
+//            the entry is multiplied by the mean of the shares at the two ends, and by the length
+//            of the ray through the step, which may be cut by the box. If one end has no value, the
+//            value of the other end is used for both. Colors mix in sRGB, as drawn.
+//   light    If the scene asks for it, each sample has one factor (stormcellar/render/light.h), and
+//            a step takes the mean of both its ends.
+//   skipped  Parts of a ray in bricks whose range of values is clear (this is exact), and
 //            everything behind an opacity of 0.999 (this changes no channel by more than 0.26 of
 //            255).
 //
@@ -39,8 +38,8 @@
 
 namespace stormcellar::render {
 
-// The memory in which a picture is drawn. A caller that keeps it for the next picture saves the
-// allocation.
+// The memory in which a picture is drawn. A caller that keeps it for the next picture need not
+// allocate it again.
 struct SlicerRoom {
     Layer layer;  // of the last picture
     std::optional<SliceMask> mask;
@@ -54,17 +53,17 @@ struct VolumeOptions {
     int slices = 256;  // at least 1
     Integration integration = Integration::second_order;
     double opacity = 1;  // scales the table's extinction; above 0
-    // If cells are larger than pixels, pixels between rays are interpolated where the expected
-    // error of each channel is at most this (0..1). 0: a ray for each pixel.
+    // If cells are larger than pixels, pixels between rays are interpolated if the expected error
+    // of each channel is at most this (0..1). 0: a ray for each pixel.
     double pixel_tolerance = 0;
     Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantization in one view, and makes their common tables once. A VolumeSlicer
-// is immutable, and many threads may call draw().
+// Draws grids of one quantization in one view, and makes the tables that they share once. A
+// VolumeSlicer is immutable; many threads may call draw().
 class VolumeSlicer {
   public:
-    // The geometry must outlive this object; `cache` may be null. `threads` threads make the shared
+    // The geometry must outlive this object. `cache` may be null. `threads` threads make the shared
     // tables.
     VolumeSlicer(const ColorTable& table, const grid::Quantization& quantization,
                  const ViewGeometry& geometry, const VolumeOptions& options,
@@ -72,8 +71,8 @@ class VolumeSlicer {
 
     // Draws a grid, which must have the geometry's spec.
     [[nodiscard]] Layer draw(const grid::BrickView& view, int threads) const;
-    // prepare() and cast() draw the picture of draw() in two steps, into memory that no other
-    // thread uses: prepare() makes the tables for a grid, and cast() casts the rays.
+    // Draw the picture of draw() in two steps, into memory that no other thread uses: prepare()
+    // makes the tables for a grid, and cast() casts the rays.
     void prepare(const grid::BrickView& view, int threads, SlicerRoom& room) const;
     void cast(const grid::BrickView& view, int threads, SlicerRoom& room) const;
 

@@ -10,7 +10,8 @@ HWY_BEFORE_NAMESPACE();
 namespace stormcellar::render::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Each lane is a step of its own, and its sums stay in registers from its first bin to its last.
+// Uses each lane for a step of its own, whose sums stay in registers from its first bin to its
+// last.
 void integrate(const BinLooks& looks, const PieceOpacities& opacities, std::size_t distance,
                StepDirection direction, StepIntegrals& result) {
     const hn::CappedTag<double, bins_of_a_vector> d;

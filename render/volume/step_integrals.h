@@ -1,9 +1,8 @@
-// render/volume/step_integrals.h -- the second-order integrals of a transfer function, for many
-// steps at once.
+// render/volume/step_integrals.h -- computes the second-order integrals of a transfer function, for
+// many steps at once.
 //
-// A step over `distance` bins begins in the middle of one bin and ends in the middle of another
-// bin. So the step shows half a bin, then whole bins, then half a bin, each with its share of the
-// step.
+// A step over `distance` bins begins in the middle of one bin and ends in the middle of another. So
+// it shows half a bin, then whole bins, then half a bin, each with its share of the step.
 //
 // Threads   Pure.
 // Accuracy  Double precision, each sum in the order of the step: the same bits on every machine.
@@ -15,11 +14,11 @@
 namespace stormcellar::render {
 
 inline constexpr std::size_t step_bins = 256;
-// Vectors may read this many numbers beyond the last bin; they do not use these.
+// Vectors may read this many numbers beyond the last bin, but do not use them.
 inline constexpr std::size_t bins_of_a_vector = 8;
 using OfBins = std::array<double, step_bins + bins_of_a_vector>;
 
-// The look of each bin: the optical depth of a step that is wholly in it, and its color.
+// The look of each bin: the optical depth of a step that is wholly in the bin, and its color.
 struct BinLooks {
     OfBins depth{};
     std::array<OfBins, 3> color{};
@@ -30,8 +29,8 @@ struct PieceOpacities {
     OfBins whole{}, half{};  // for each bin
 };
 
-// Entry i describes the step with bin i at its lower end: the color that leaves its front, the
-// light that gets through it, and the sum of the depths of its bins.
+// Entry i is for the step with bin i at its lower end: the color that leaves its front, the light
+// that gets through it, and the sum of the depths of its bins.
 struct StepIntegrals {
     std::array<OfBins, 3> color;
     OfBins through, depth;
@@ -39,8 +38,8 @@ struct StepIntegrals {
 
 enum class StepDirection { rising, falling };  // rising: the nearer end has the lower bin
 
-// Integrates all steps over `distance` bins, front to back. `distance` is 1 to step_bins - 1; the
-// first step_bins - distance places of the result are set.
+// Integrates all steps over `distance` bins, front to back. `distance` is 1 to step_bins - 1. Sets
+// the first step_bins - distance places of the result.
 void integrate_steps(const BinLooks& looks, const PieceOpacities& opacities, std::size_t distance,
                      StepDirection direction, StepIntegrals& result);
 

@@ -1,6 +1,6 @@
 // render/volume/transfer_cache.h -- keeps the transfer function of the last picture.
 //
-// The function takes milliseconds to make, and is the same for all frames of a loop.
+// The function takes milliseconds to make, and all frames of a loop have the same one.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -14,7 +14,8 @@ namespace stormcellar::render {
 
 class TransferCache {
   public:
-    // Returns the function. Makes a new one if anything but `threads` differs from the last call.
+    // Returns the function. Makes a new one if any argument but `threads` differs from the last
+    // call.
     [[nodiscard]] std::shared_ptr<const TransferFunction> get(
         const ColorTable& table, const grid::Quantization& quantization, double opacity,
         double step_m, Integration integration, int threads = 1);

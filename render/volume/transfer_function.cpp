@@ -21,7 +21,7 @@ TransferEntry entry_of(double red, double green, double blue, double depth) {
             static_cast<float>(depth)};
 }
 
-// Uses only the nearer value; the second bin does not matter.
+// Uses only the nearer value, so the second bin does not matter.
 void fill_riemann(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         const auto entry =
@@ -30,7 +30,7 @@ void fill_riemann(const BinLooks& look, Entries& entries) {
     }
 }
 
-// Sums over the bins: whole bins between the ends, and half of the bin at each end.
+// Adds up the bins: whole bins between the ends, and half of the bin at each end.
 void fill_first_order(const BinLooks& look, Entries& entries) {
     for (std::size_t i = 0; i < bins; ++i) {
         double depth = 0;
@@ -110,7 +110,7 @@ std::string_view integration_name(Integration integration) {
     return names[static_cast<std::size_t>(integration)];
 }
 
-// The bin of a stop begins at the stop if a whole number of bins fits between any two stops.
+// The bin of a stop begins at the stop, if there is a whole number of bins between any two stops.
 void TransferFunction::choose_bins(const ColorTable& table) {
     const auto& stops = table.stops;
     lowest_ = static_cast<double>(std::max(table.lowest(), table.extinction.front().value));
@@ -120,7 +120,8 @@ void TransferFunction::choose_bins(const ColorTable& table) {
     double gap = range;
     for (std::size_t i = 1; i < stops.size(); ++i)
         gap = std::min(gap, static_cast<double>(stops[i].from - stops[i - 1].from));
-    // One bin holds the clear values below the table, and one the values from the highest stop on.
+    // One bin is for the clear values below the table, and one for the values from the highest stop
+    // on.
     const double finest = range / (bin_count - 2);
     const double bins_a_gap = std::floor(gap / finest * (1 + 1e-9));
     bin_width_ = bins_a_gap >= 1 ? gap / bins_a_gap : finest;
@@ -137,9 +138,8 @@ TransferFunction::TransferFunction(const ColorTable& table, const grid::Quantiza
     bin_slope_ = static_cast<float>(step / bin_width_);
     bin_offset_ = static_cast<float>((code_zero - lowest_) / bin_width_ + 1 + bin_slack);
 
-    // Computes the look of each bin from the middle value of the bin. Then counts visible bins, so
-    // that shows() answers for any range with one subtraction. Then makes the entries for all pairs
-    // of bins.
+    // Compute the look of each bin from its middle value. Then count visible bins, so that shows()
+    // needs only one subtraction for any range. Then make the entries for all pairs of bins.
     BinLooks look;
     for (int i = 1; i < bin_count; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -1,13 +1,13 @@
-// render/volume/transfer_function.h -- a color table, prepared for steps through a volume.
+// render/volume/transfer_function.h -- prepares a color table for steps through a volume.
 //
-// A path of length s through an extinction k (ColorTable::extinction) has the optical depth k s
-// and the opacity 1 - exp(-k s). Lengths are measured in the drawn scene, with heights exaggerated.
+// A path of length s through an extinction k (ColorTable::extinction) has the optical depth k s and
+// the opacity 1 - exp(-k s). Lengths are those of the drawn scene, with heights exaggerated.
 //
-// Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear and
-// holds the values below the table or below its first extinction. The other bins have equal widths,
-// such that the last bin holds the highest stop of the table and, where possible, each stop begins
-// a bin. For each pair of bins at the two ends of a step, the table holds the look of the step from
-// its first end, as stormcellar/render/integration.h says.
+// Values are sorted into bins, and all values of a bin look like its middle. Bin 0 is clear; it
+// holds the values below the table or below its first extinction. The other bins have equal widths.
+// The last bin holds the highest stop of the table, and each stop begins a bin if possible. For
+// each pair of bins at the two ends of a step, the table holds the look of the step from its first
+// end, by the rules of stormcellar/render/integration.h.
 //
 // Threads   Immutable.
 #pragma once
@@ -23,8 +23,8 @@
 
 namespace stormcellar::render {
 
-// The look of a step of the reference length whose whole width holds values. For a step of another
-// length or another share of values, the color is the same, and the depth is multiplied by the
+// The look of a step of the reference length that has values over its whole width. A step of
+// another length or another share of values has the same color; its depth is multiplied by the
 // ratio of the lengths and by the share.
 struct TransferEntry {
     float red = 0, green = 0, blue = 0;  // 0..1, not premultiplied
@@ -41,15 +41,15 @@ class TransferFunction {
                      double opacity, double step_m, Integration integration, int threads = 1);
 
     // The bin of a code is the whole part of bin_offset + bin_slope * code, bounded. The code may
-    // have a fraction (the mean of several codes). Rounding never makes the bin too low: values up
-    // to 1/64 of a bin below its start belong to it.
+    // have a fraction (the mean of several codes). Rounding never makes the bin too low, because
+    // values up to 1/64 of a bin below the start of a bin belong to it.
     [[nodiscard]] float bin_offset() const { return bin_offset_; }
     [[nodiscard]] float bin_slope() const { return bin_slope_; }
     [[nodiscard]] int bin(float code) const {
         return static_cast<int>(
             std::clamp(bin_offset_ + bin_slope_ * code, 0.0F, bin_count - 1.0F));
     }
-    // Returns the value whose look a bin has. Bin 0 has no such value.
+    // Returns the value that a bin looks like. Bin 0 has no such value.
     [[nodiscard]] double value_of(int bin) const { return lowest_ + (bin - 0.5) * bin_width_; }
     [[nodiscard]] double bin_width() const { return bin_width_; }
     // Returns the look of a step from one bin to another, the nearer bin first.
@@ -57,7 +57,7 @@ class TransferFunction {
         return entries_[static_cast<std::size_t>(bin) * bin_count +
                         static_cast<std::size_t>(other_bin)];
     }
-    // Returns true if any value between the values of the two codes, ends included, is not clear.
+    // Returns true if any value between those of the two codes, ends included, is not clear.
     [[nodiscard]] bool shows(std::uint16_t least_code, std::uint16_t largest_code) const {
         const auto first = static_cast<std::size_t>(bin(least_code));
         const auto last = static_cast<std::size_t>(bin(largest_code));
@@ -70,7 +70,8 @@ class TransferFunction {
     double lowest_ = 0, bin_width_ = 1;
     float bin_offset_ = 0, bin_slope_ = 0;
     std::vector<TransferEntry> entries_;
-    std::vector<int> visible_below_;  // the number of bins below this one that are not clear
+    // For each bin, the number of bins below it that are not clear.
+    std::vector<int> visible_below_;
 };
 
 }  // namespace stormcellar::render

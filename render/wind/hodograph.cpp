@@ -19,12 +19,13 @@ using retrieve::WindLayer;
 constexpr double title_height_px = 50, key_height_px = 108, side_margin_px = 14;
 constexpr int most_rings_shown = 6;
 constexpr double least_span_mps = 12;
-// Winds farther apart than the first are joined by a thin line, farther than the second by none.
+// Winds farther apart than the first length are joined by a thin line; farther apart than the
+// second, by none.
 constexpr double most_gap_m = 650, widest_gap_m = 1'500;
 
 constexpr std::size_t band_count = 5;
 using Edges = std::array<double, band_count - 1>;
-// The heights with marks, which also divide the band_count of color, as on the hodographs of the
+// The heights with marks. They also divide the line into bands of color, as on the hodographs of the
 // Weather Service.
 Edges edges_of(const Units& units) {
     if (facts_of(units.height).si < 400) {  // feet
@@ -128,8 +129,8 @@ class Hodograph {
         write_rings(static_cast<int>(farthest / plan_.ring_step_mps));
     }
 
-    // Writes the speeds of the rings in the direction from calm in which the most rings are on the
-    // plot.
+    // Writes the speeds of the rings, in the direction from calm in which the plot has the most
+    // rings.
     void write_rings(int rings) {
         std::vector<Point> most;
         for (const Point& toward : {Point{0, 1}, {0, -1}, {-1, 0}, {1, 0}}) {
@@ -156,8 +157,8 @@ class Hodograph {
                at.y >= plot.y + margin && at.y <= plot.bottom() - margin;
     }
 
-    // Draws the line from layer to layer, each piece in the color of its height. Pieces over a gap,
-    // and pieces that end at birds, are thin. A wide gap stays open.
+    // Draws the line from layer to layer. Each piece has the color of its height. Pieces over a
+    // gap, and pieces that end at birds, are thin. A wide gap stays open.
     void draw_line() {
         for (std::size_t i = 1; i < layers_.size(); ++i) {
             const WindLayer& low = *layers_[i - 1];
@@ -212,7 +213,7 @@ class Hodograph {
 
     [[nodiscard]] double motions_left() const { return page_.width * 0.42; }
 
-    // Writes the key of the colors, left below the plot.
+    // Writes the key of the colors below the plot, at the left.
     void write_heights() {
         const double left = plan_.plot.x, top = plan_.plot.bottom();
         const UnitFacts& height = facts_of(page_.units.height);
@@ -232,7 +233,7 @@ class Hodograph {
         }
     }
 
-    // Writes the storm motions, or the reason why there are none, right of the key.
+    // Writes the storm motions, or the reason why there are none, to the right of the key.
     void write_motions() {
         const double left = motions_left(), top = plan_.plot.bottom();
         const double room = page_.width - left - side_margin_px * scale_;

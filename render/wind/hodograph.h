@@ -1,8 +1,8 @@
 // render/wind/hodograph.h -- draws a wind profile as a hodograph.
 //
-// The line joins the tips of the winds from the lowest layer to the highest; its color tells the
-// height. Rings tell the speed. The vector from the middle of the rings to a point shows where the
-// air goes: right is east, up is north. Heights are above the antenna.
+// The line joins the tips of the winds from the lowest layer to the highest. Its color tells the
+// height, and rings tell the speed. The vector from the middle of the rings to a point shows which
+// way the air moves: right is east, up is north. Heights are above the antenna.
 //
 // Threads   Pure functions.
 #pragma once
@@ -31,7 +31,7 @@ struct HodographPlan {
 // Returns the color of the line at a height above the antenna.
 [[nodiscard]] Rgba8 hodograph_color(double height_m, const Units& units, Theme theme);
 
-// Draws the page. If there are no storm motions, it says why.
+// Draws the page. If there are no storm motions, the page says why.
 [[nodiscard]] Image draw_hodograph(const WindPage& page, const WindColumn& column,
                                    const Result<retrieve::StormMotions>& motions,
                                    const Fonts& fonts);

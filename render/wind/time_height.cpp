@@ -19,7 +19,7 @@ constexpr double column_px = 26, row_px = 15;
 constexpr double least_barb_px = 24, most_barb_px = 36;
 
 constexpr std::size_t class_count = 5;
-// Returns the speed at which a class of color ends, in m/s.
+// Returns the speed at which a class of colors ends, in m/s.
 double class_end_mps(std::size_t number, const Units& units) {
     const double step = units.speed == Unit::mps ? 10 : 20 * facts_of(Unit::knots).si;
     return static_cast<double>(number + 1) * step;

@@ -1,7 +1,7 @@
 // render/wind/time_height.h -- draws the wind profiles of one station by time and height.
 //
-// Each wind is a barb whose color tells its speed; likely birds are gray. Where there is no room
-// for all, volumes and layers are left out evenly. Heights are above sea level.
+// Each wind is a barb whose color tells its speed; likely birds are gray. If there is no room for
+// all winds, volumes and layers are left out evenly. Heights are above sea level.
 //
 // Threads   Pure functions.
 #pragma once

@@ -8,9 +8,9 @@
 namespace stormcellar::render {
 namespace {
 
-constexpr double barb_share = 0.42;  // of the staff, the length of a long barb
-constexpr double step_share = 0.15;  // of the staff, from one barb to the next
-constexpr double flag_share = 0.22;  // of the staff, the base of a flag
+constexpr double barb_share = 0.42;  // length of a long barb, as a share of the staff
+constexpr double step_share = 0.15;  // from one barb to the next, as a share of the staff
+constexpr double flag_share = 0.22;  // base of a flag, as a share of the staff
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void draw_wind_barb(Canvas& canvas, Point place, const retrieve::Motion& wind, d
         out -= step_share;
     }
     if (parts.short_barbs == 0) return;
-    // A short barb alone stays away from the end, so that it does not look like a long one.
+    // A single short barb stays away from the end, so that it does not look like a long barb.
     if (parts.flags + parts.long_barbs == 0) out -= step_share;
     canvas.line({at(out, 0), at(out + step_share / 2, barb_share / 2)}, line_width, color, false);
 }

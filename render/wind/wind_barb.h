@@ -1,8 +1,8 @@
 // render/wind/wind_barb.h -- draws a wind as a barb.
 //
-// The staff points to where the wind comes from. On its right, seen from the place of the wind, a
-// flag counts 50 knots, a long barb 10 and a short barb 5, after rounding to 5 knots. A wind below
-// 2.5 knots is a circle.
+// The staff points to where the wind comes from. On its right, as seen from the place of the wind,
+// a flag counts 50 knots, a long barb 10 and a short barb 5, after rounding to 5 knots. A wind
+// below 2.5 knots is a circle.
 //
 // Source    WMO Manual on the Global Data-processing and Forecasting System, for the northern
 //           hemisphere.

@@ -1,4 +1,5 @@
-// render/wind/wind_page.h -- the page on which wind profiles are drawn: facts, sizes and text.
+// render/wind/wind_page.h -- provides the page on which wind profiles are drawn: facts, sizes and
+// text.
 //
 // Threads   A WindCanvas may be used by one thread at a time.
 #pragma once
@@ -29,12 +30,13 @@ struct WindColumn {
     std::vector<retrieve::WindLayer> layers;
 };
 
-// A canvas with the fonts, colors and sizes of the page. Sizes are in pixels of a page 800 wide.
+// A canvas with the fonts, colors and sizes of the page. Sizes are in pixels of a page that is 800
+// wide.
 class WindCanvas {
   public:
     WindCanvas(const WindPage& page, const Fonts& fonts);
 
-    // Returns the size of one pixel of a page 800 wide, on this page.
+    // Returns the size that a pixel of a page 800 wide has on this page.
     [[nodiscard]] static double scale_of(const WindPage& page);
     [[nodiscard]] double scale() const { return scale_; }
     [[nodiscard]] const Shades& shades() const { return shades_; }
@@ -44,7 +46,7 @@ class WindCanvas {
         double size = 11;
         bool is_bold = false;
         bool is_quiet = false;
-        double share = 0;   // of the text that is left of the point
+        double share = 0;   // the part of the text that is left of the point
         double room = 1e9;  // a longer text gets smaller letters
         bool has_halo = false;
     };
