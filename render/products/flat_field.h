@@ -27,8 +27,7 @@
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
 //   rotation, rotation_aloft   The largest value of the cells whose height above the radar is in
-//   the
-//                              product's layer.
+//                              the product's layer.
 //   rotation_tracks            As rotation, of a grid that has the largest value of each cell over
 //                              time.
 // For products of reflectivity or shear, a column without a value is range folded if any cell is
