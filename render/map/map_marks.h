@@ -3,10 +3,10 @@
 //
 // Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
 // scale bar take a corner, the lower left corner unless a site is there, and the key of beam glyphs
-// another corner. If every corner has a site, the arrow and the bar hide the site at the lower left.
-// Then come the names of sites, heights, distances, and cities, the largest city first. A name
-// without room is left out; then the mark of a site is still drawn, but the mark of a city is not.
-// Everything is inside the picture, and plans are in pixels of the picture.
+// another corner. If every corner has a site, the arrow and the bar hide the site at the lower
+// left. Then come the names of sites, heights, distances, and cities, the largest city first. A
+// name without room is left out; then the mark of a site is still drawn, but the mark of a city is
+// not. Everything is inside the picture, and plans are in pixels of the picture.
 //
 // The length of the scale bar is true across the middle of the picture. It is 1, 2 or 5 times a
 // power of ten, measured along WGS84 (to 1 % at worst). If the middle of the view shows no ground,
