@@ -17,7 +17,7 @@ namespace {
 
 using level2::Moment;
 
-constexpr double no_echo = std::numeric_limits<double>::quiet_NaN();
+constexpr double silence = std::numeric_limits<double>::quiet_NaN();
 constexpr double calm_mps = 4, storm_mps = 25;
 
 // A storm between 40 and 70 degrees of azimuth from 60 to 90 km. Returns 1 inside it, falling to 0
@@ -33,7 +33,7 @@ double storm_in_rain(double azimuth_deg, double range_m, double /*elevation*/, d
 // The rain about the storm has gone, so nothing connects the storm with the echo near the radar.
 double storm_alone(double azimuth_deg, double range_m, double /*elevation*/, double /*height*/) {
     if (range_m < 10'000) return calm_mps;
-    return inside_storm(azimuth_deg, range_m) < 1 ? no_echo : storm_mps;
+    return inside_storm(azimuth_deg, range_m) < 1 ? silence : storm_mps;
 }
 
 constexpr UtcTime start{std::chrono::hours{400'000}};
