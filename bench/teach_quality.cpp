@@ -107,7 +107,23 @@ Truth truth_of(float reflectivity, float correlation) {
     return correlation <= 1 ? Truth::weak : Truth::none;
 }
 
-// Gathers the lessons of a volume: every volume weighs the same, and weak weather half.
+// Returns the weight of a lesson; 0 if it teaches nothing.
+double weight_of(Truth truth) {
+    switch (truth) {
+        case Truth::other:
+        case Truth::strong:
+        case Truth::dense:
+            return 1;
+        case Truth::weak:
+            return 0.5;
+        case Truth::none:
+        case Truth::between:
+            break;
+    }
+    return 0;
+}
+
+// Gathers the lessons of a volume. Every volume weighs the same.
 std::vector<Lesson> lessons_of(const level2::Volume& volume, QualityRule rule) {
     constexpr std::size_t most = 100'000;
     std::vector<Lesson> lessons;
@@ -120,11 +136,9 @@ std::vector<Lesson> lessons_of(const level2::Volume& volume, QualityRule rule) {
                 const Truth truth =
                     truth_of(field.value(radial, gate), correlation[radial * field.gates + gate]);
                 Lesson& lesson = of_gates[i++];
-                lesson.is_weather = truth == Truth::weak || truth == Truth::strong;
+                lesson.is_weather = truth != Truth::other;
                 lesson.is_strong = truth == Truth::strong;
-                lesson.weight = truth == Truth::other || truth == Truth::strong ? 1
-                                : truth == Truth::weak                          ? 0.5
-                                                                                : 0;
+                lesson.weight = weight_of(truth);
             }
         retrieve::visit_features(
             volume, sweep, field, echo, rule,
