@@ -29,7 +29,7 @@ grid::GridSpec spec_of_shear() {
 }
 
 // Makes a grid from the shear of each cell in 0.001/s; cells without a value are ambiguous.
-grid::BrickGrid bricks_of(const std::function<std::optional<float>(int, int, int)>& shear_at) {
+grid::BrickGrid shear_bricks(const std::function<std::optional<float>(int, int, int)>& shear_at) {
     grid::Grid grid;
     grid.spec = spec_of_shear();
     grid.moment = Moment::azsh;
@@ -63,7 +63,7 @@ int column_cells(const grid::BrickGrid& columns) {
 }
 
 TEST(Rotation, StrongCellsAboveEachOtherMakeAColumn) {
-    const auto shear = bricks_of([](int x, int y, int) {
+    const auto shear = shear_bricks([](int x, int y, int) {
         return x == 10 && y == 12 ? least_rotation : x == 30 && y == 5 ? -20.0F : 1.0F;
     });
     const auto columns = rotation_columns(shear.view());
@@ -79,7 +79,7 @@ TEST(Rotation, StrongCellsAboveEachOtherMakeAColumn) {
 
 TEST(Rotation, WeakSingleAndShallowCellsMakeNoColumn) {
     const auto count = [](const std::function<std::optional<float>(int, int, int)>& shear_at) {
-        return column_cells(rotation_columns(bricks_of(shear_at).view()));
+        return column_cells(rotation_columns(shear_bricks(shear_at).view()));
     };
     EXPECT_EQ(count([](int x, int, int) { return x % 9 == 4 ? 7.9F : 0.0F; }), 0);
     EXPECT_EQ(count([](int x, int y, int z) { return (x + y) % 7 == 0 && z == 4 ? 50.0F : 0.0F; }),
@@ -103,8 +103,8 @@ TEST(Rotation, WeakSingleAndShallowCellsMakeNoColumn) {
 
 // At the edges of bricks and of the grid.
 TEST(Rotation, AColumnMayLeanAcrossBricksAndTouchTheEdge) {
-    const auto shear =
-        bricks_of([](int x, int y, int z) { return y == 0 && x >= z && x < z + 3 ? 12.0F : 0.0F; });
+    const auto shear = shear_bricks(
+        [](int x, int y, int z) { return y == 0 && x >= z && x < z + 3 ? 12.0F : 0.0F; });
     const auto columns = rotation_columns(shear.view());
     for (int z = 0; z < nz; ++z)
         EXPECT_GE(columns.view().value(z + 1, 0, z), column_share) << z;
@@ -122,7 +122,7 @@ TEST(Rotation, ItsColorsAreAValidTable) {
 
 // Draws an empty volume with a column of each sense, the counterclockwise one in the west.
 TEST(Rotation, APictureShowsEachColumnInItsColor) {
-    const auto shear = bricks_of([](int x, int y, int) {
+    const auto shear = shear_bricks([](int x, int y, int) {
         const bool is_high = std::abs(y - 18) < 3;
         return is_high && std::abs(x - 10) < 3   ? 20.0F
                : is_high && std::abs(x - 30) < 3 ? -20.0F
