@@ -211,7 +211,7 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(first).not.toBeNull();
     const hint = viewer.byId('tool-says');
     await expect(hint).toHaveText(/^Drag on the ground/);
-    await viewer.settled(() => viewer.drag([425, 110], [45, 100]));
+    await viewer.settled(() => viewer.drag([430, 185], [45, 100]));
     await expect(hint).toHaveText('');
     const second = await viewer.told('section');
     expect(second).not.toBe(first);
