@@ -4,7 +4,7 @@
 //   (bench/request.h; every real volume, unless files are named)
 // Prints a row for each file and each method:
 //   file         name of the file
-//   rung         name of the method: region or anchored
+//   rung         name of the method: off, region or anchored
 //   gates        number of gates with a velocity
 //   folded       number of gates with a fold number other than 0
 //   ambiguous    number of gates that are marked ambiguous
@@ -125,7 +125,7 @@ double percent(std::int64_t part, std::int64_t whole) {
 void measure(const fs::path& file, const Request& request, Table& table) {
     const bool is_case = request.has("--case");
     const KnownVolume of = load(file, is_case);
-    for (const Dealiasing rung : {Dealiasing::region, Dealiasing::anchored}) {
+    for (const Dealiasing rung : {Dealiasing::off, Dealiasing::region, Dealiasing::anchored}) {
         Dealiased found;
         double least_s = std::numeric_limits<double>::infinity();
         for (int i = 0; i < request.runs; ++i) {

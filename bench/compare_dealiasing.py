@@ -4,15 +4,21 @@
 usage: bench/compare_dealiasing.py [--program build/release/bench/bench_dealias] [--data DIR]
        [--pyart] [--cases FILE ...] [--edges FILE ...]
 
-Needs numpy and recast-radar 0.1.3 (pip); --pyart also needs arm_pyart. All run in this process or
-in bench_dealias, one after the other.
+Needs numpy and recast-radar 0.1.3 (pip); --pyart also needs arm_pyart, and unravel if UNRAVEL is
+wanted. All run in this process or in bench_dealias, one after the other.
 
-1. Folded again (--cases): the true velocities are those of the gates on which recast's methods
-   `pyart` and `volume` agree at the real Nyquist velocity. They are folded again at 20, 16, 12 and
-   8.5 m/s. Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also
-   prints which share of the wrong and of the right gates is marked ambiguous.
-2. Edges that are left (--edges): counts the pairs of adjacent gates that, dealiased at the real
-   Nyquist velocity, still differ by more than it. Prints the counts and the seconds.
+1. Folded again (--cases): the truth is every gate on which recast's methods `pyart` and `volume`
+   agree at the real Nyquist velocity. The velocities are folded again at 20, 16, 12 and 8.5 m/s.
+   Prints the wrong gates in %, and the seconds, of each method. For stormcellar it also prints which
+   share of the wrong and of the right gates is marked ambiguous.
+2. One sweep folded again (--pyart): the same for sweeps of a tornado and a hurricane, with Py-ART's
+   region and phase methods and UNRAVEL. The truth is every gate on which region and UNRAVEL agree.
+   A turn that is common to all gates of a phase result is taken out.
+3. Edges that are left (--edges, else every volume): pairs of adjacent gates that still differ by
+   more than the Nyquist velocity, at the real Nyquist velocity, and the seconds. A dash stands for a
+   file that the other program does not read.
+
+Exits with status 1 if `anchored` has more wrong gates or edges than another method.
 """
 import argparse
 import json
@@ -34,8 +40,9 @@ import recast_radar  # noqa: E402
 HERE = pathlib.Path(__file__).resolve().parent.parent
 NYQUISTS = (20, 16, 12, 8.5)
 CASES = ['KTLX19990503_235621.gz', 'KLIX20050828_180149.gz', 'KLBB20160601_150025_V06']
-EDGES = CASES + ['KLOT20220317_000842_V06', 'KOKX20080109_141449.gz', 'KBBX20060113_170337.gz']
+SWEEPS = [('KTLX19990503_235621.gz', 1), ('KCRP20170826_044114.trimmed.ar2v', 1)]
 UNKNOWN = -128
+MISSED = []  # cells in which another method is better
 
 
 def arguments():
@@ -43,9 +50,9 @@ def arguments():
     parser.add_argument('--program', default=HERE / 'build/release/bench/bench_dealias')
     parser.add_argument('--data', type=pathlib.Path,
                         default=os.environ.get('STORMCELLAR_DATA', HERE.parent / 'shared/data'))
-    parser.add_argument('--pyart', action='store_true', help="run Py-ART's region method, too")
+    parser.add_argument('--pyart', action='store_true', help='run Py-ART and UNRAVEL, too')
     parser.add_argument('--cases', nargs='*', default=CASES, metavar='FILE')
-    parser.add_argument('--edges', nargs='*', default=EDGES, metavar='FILE')
+    parser.add_argument('--edges', nargs='*', default=None, metavar='FILE')
     return parser.parse_args()
 
 
@@ -161,30 +168,123 @@ def compare_cases(options, scratch):
             folds = np.where(known, np.round((truth - velocity) / (2 * nyquist)), UNKNOWN)
             write_case(scratch / 'case', radar, velocity, folds, nyquist)
             rungs = ours(options.program, [scratch / 'case'], '--case')
+            check(f'{name} {nyquist}', rungs['anchored']['wrong_pct'], row[::2])
             for rung in ('region', 'anchored'):
                 row += [rungs[rung][key] for key in
                         ('wrong_pct', 'seconds', 'marked_wrong_pct', 'marked_right_pct')]
             print_row(name, nyquist, *row)
 
 
-def compare_edges(options):
-    methods = ['pyart', 'volume']
-    print_row('file', *[f'{name} edges\ts' for name in methods],
-              *(['py-art edges\ts'] if options.pyart else []),
-              *[f'{rung} edges\ts' for rung in ('ours region', 'anchored')])
-    for name in options.edges:
-        path = str(options.data / 'volumes' / name)
-        row = []
-        for method in methods:
+def check(cell, ours_has, others_have):
+    """Notes a cell in which another method has fewer wrong gates or edges."""
+    best = min((float(other) for other in others_have if other != '-'), default=ours_has)
+    if ours_has > best:
+        MISSED.append(f'{cell}: {ours_has} instead of {best}')
+
+
+def unravel_sweep(radar, velocity, nyquist):
+    """Returns the velocities of UNRAVEL, and the seconds."""
+    import unravel
+    start = time.process_time()
+    found, _ = unravel.dealiasing_process_2D(
+        radar.range['data'].astype(float), radar.azimuth['data'].astype(float),
+        float(radar.elevation['data'].mean()), velocity.copy(), nyquist)
+    return np.ma.filled(found.astype(float), np.nan), time.process_time() - start
+
+
+def pyart_sweep(radar, velocity, nyquist, method):
+    """Returns the velocities of a method of Py-ART, and the seconds."""
+    import pyart
+    # The phase method does not end if a masked gate holds NaN.
+    masked = np.ma.array(np.nan_to_num(velocity), mask=np.isnan(velocity))
+    radar.add_field_like('velocity', 'again', masked, replace_existing=True)
+    valid = pyart.filters.GateFilter(radar)
+    valid.exclude_invalid('again')
+    # Legacy sweeps have radials that overlap, which its check refuses.
+    options = {'skip_checks': True} if method == 'unwrap_phase' else {}
+    start = time.process_time()
+    found = getattr(pyart.correct, f'dealias_{method}')(
+        radar, vel_field='again', gatefilter=valid, nyquist_vel=nyquist, **options)
+    return np.ma.filled(found['data'].astype(float), np.nan), time.process_time() - start
+
+
+def compare_sweeps(options, scratch):
+    import pyart
+    try:
+        import unravel  # noqa: F401
+    except ImportError:
+        print('no sweeps: the truth needs unravel')
+        return
+    print_row('file', 'nyquist', *[f'{name} %\ts' for name in ('region', 'phase', 'unravel')],
+              *[f'{rung} %\ts' for rung in ('ours region', 'anchored')])
+    for name, number in SWEEPS:
+        volume = pyart.io.read_nexrad_archive(str(options.data / 'volumes' / name))
+        radar = volume.extract_sweeps([number])
+        real = nyquists_of(radar)[0]
+        raw = field(radar, 'velocity')
+        agreed = pyart_sweep(radar, raw, real, 'region_based')[0]
+        known = np.abs(agreed - unravel_sweep(radar, raw, real)[0]) < 1
+        truth = np.where(known, agreed, np.nan)
+        for nyquist in NYQUISTS:
+            velocity = (truth + nyquist) % (2 * nyquist) - nyquist
+            row = []
+            for method in ('region_based', 'unwrap_phase', 'unravel'):
+                found, seconds = (unravel_sweep(radar, velocity, nyquist) if method == 'unravel'
+                                  else pyart_sweep(radar, velocity, nyquist, method))
+                turns = np.round((found - truth) / (2 * nyquist))
+                if method == 'unwrap_phase':
+                    turns -= np.nan_to_num(np.nanmedian(turns[known]))
+                row += [f'{100 * (turns[known] != 0).mean():.2f}', f'{seconds:.3f}']
+            folds = np.where(known, np.round((truth - velocity) / (2 * nyquist)), UNKNOWN)
+            write_case(scratch / 'case', radar, velocity, folds, nyquist)
+            rungs = ours(options.program, [scratch / 'case'], '--case')
+            check(f'{name} {nyquist}', rungs['anchored']['wrong_pct'], row[::2])
+            for rung in ('region', 'anchored'):
+                row += [rungs[rung]['wrong_pct'], rungs[rung]['seconds']]
+            print_row(name, nyquist, *row)
+
+
+def edges_of_others(path, options):
+    """Returns the edges that other methods leave, and their seconds; dashes for unread files."""
+    row = []
+    try:
+        for method in ('pyart', 'volume'):
             radar, seconds = recast(recast_radar.read(path), method)
             row += [edges(radar, field(radar, 'corrected_velocity')), f'{seconds:.3f}']
-        if options.pyart:
-            found, seconds = pyart_region(radar)
-            row += [edges(radar, np.ma.filled(found.astype(float), np.nan)), f'{seconds:.3f}']
-        rungs = ours(options.program, [path])
+    except (ValueError, RuntimeError, recast_radar.DecodeError):
+        row = ['-'] * 4
+    if not options.pyart:
+        return row
+    try:
+        if row[0] == '-':
+            import pyart
+            radar = pyart.io.read_nexrad_archive(path)
+        found, seconds = pyart_region(radar)
+        return row + [edges(radar, np.ma.filled(found.astype(float), np.nan)), f'{seconds:.3f}']
+    except Exception:  # Py-ART raises errors of many kinds about files that it does not read.
+        return row + ['-', '-']
+
+
+def compare_edges(options):
+    files = options.edges
+    if files is None:
+        files = sorted(path.name for path in (options.data / 'volumes').iterdir())
+    print_row('file', 'raw', *[f'{name} edges\ts' for name in ('pyart', 'volume')],
+              *(['py-art edges\ts'] if options.pyart else []),
+              *[f'{rung} edges\ts' for rung in ('ours region', 'anchored')])
+    for name in files:
+        path = str(options.data / 'volumes' / name)
+        try:
+            rungs = ours(options.program, [path])
+        except subprocess.CalledProcessError:
+            continue
+        if rungs['region']['gates'] == 0:
+            continue
+        row = edges_of_others(path, options)
+        check(name, rungs['anchored']['jumps'], row[::2])
         for rung in ('region', 'anchored'):
             row += [rungs[rung]['jumps'], rungs[rung]['seconds']]
-        print_row(name, *row)
+        print_row(name, rungs['off']['jumps'], *row)
 
 
 def main():
@@ -192,8 +292,13 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         if options.cases:
             compare_cases(options, pathlib.Path(scratch))
-    if options.edges:
+        if options.pyart:
+            compare_sweeps(options, pathlib.Path(scratch))
+    if options.edges != []:
         compare_edges(options)
+    for cell in MISSED:
+        print('missed:', cell)
+    return 1 if MISSED else 0
 
 
 if __name__ == '__main__':

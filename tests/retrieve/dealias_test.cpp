@@ -2,6 +2,7 @@
 // volumes.
 #include "stormcellar/retrieve/dealias.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -63,6 +64,29 @@ TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckleAndGaps) {
     EXPECT_LE(static_cast<double>(found.wrong_unmarked), 5e-4 * static_cast<double>(found.gates));
 }
 INSTANTIATE_TEST_SUITE_P(Nyquist, SyntheticWind, ::testing::Values(8.0, 12.0, 16.0, 24.0, 33.0));
+
+// Velocities rise by 24 m/s from north to south on the eastern side, and fall as much on the
+// western side. For 1 km of range they rise within one radial, so that there gates of two fold
+// numbers look alike.
+double linked_sides(double azimuth_deg, double range_m, double, double) {
+    const bool is_sharp = range_m >= 25'000 && range_m < 26'000;
+    const double east = std::clamp((azimuth_deg - 90) / (is_sharp ? 0.5 : 8) + 0.5, 0.0, 1.0);
+    const double west = std::clamp((azimuth_deg - 270) / 16 + 0.5, 0.0, 1.0);
+    return -9 + 24 * (east - west);
+}
+// 2026-11-30: a few linked gates gave half of the sweep a wrong fold number, as in the hurricane of
+// KCRP 2017 folded again at 12 m/s.
+TEST(Dealias, AFewGatesOfStrongShearDoNotFoldBothSides) {
+    FoldedSpec spec;
+    spec.elevations_deg = {0.5};
+    const FoldedVolume folded = fold(spec, linked_sides);
+    for (const Dealiasing rung : {Dealiasing::region, Dealiasing::anchored}) {
+        const Score found = score(folded, dealias(folded.volume, rung));
+        EXPECT_GT(found.gates, 130'000);
+        EXPECT_LE(found.wrong_share(), 0.001) << dealiasing_name(rung);
+        EXPECT_LE(found.marked, found.gates / 100) << dealiasing_name(rung);
+    }
+}
 
 // Two storms with no echo between them: only the wind says how often the far one is folded.
 TEST(Dealias, AnIsolatedStormIsAnchoredToTheWind) {

@@ -54,5 +54,20 @@ TEST(Regions, ACircleIsClosed) {
     EXPECT_EQ(closed.edges[1].votes.winner(), -1) << "from the last radial up to the first";
 }
 
+TEST(Regions, PiecesOfASplitRegionVoteForItsFold) {
+    const VelocitySheet sheet = sheet_of(16, 32, std::vector<float>(512, 0.1F));
+    const SheetRegions whole = find_regions(sheet);
+    ASSERT_EQ(whole.gate_count, (std::vector<std::int32_t>{512}));
+    EXPECT_EQ(split_regions(sheet, whole, {0}).gate_count, whole.gate_count);
+
+    SheetRegions split = split_regions(sheet, whole, {1});
+    EXPECT_EQ(split.gate_count, (std::vector<std::int32_t>{128, 128, 128, 128}));
+    EXPECT_EQ(split.pairs, whole.pairs);
+    combine_edges(split.edges, 4);
+    ASSERT_EQ(split.edges.size(), 4U);
+    for (const FoldEdge& edge : split.edges)
+        EXPECT_EQ(edge.votes.at(0), edge.b - edge.a == 1 ? 8 : 16) << edge.a << ' ' << edge.b;
+}
+
 }  // namespace
 }  // namespace stormcellar::retrieve
