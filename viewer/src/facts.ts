@@ -15,6 +15,7 @@ export const moments = {
     SRV: { unit: 'm/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'VEL' },
     AZSH: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL' },
     DIVG: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'AZSH' },
+    POW: { unit: '1', isDerived: true, measured: 'REF' },
 } as const;
 export const momentTitles = {
     REF: 'Reflectivity',
@@ -28,6 +29,7 @@ export const momentTitles = {
     SRV: 'Storm-relative velocity',
     AZSH: 'Azimuthal shear',
     DIVG: 'Radial divergence',
+    POW: 'Probability of weather',
 } as const;
 
 // Units by quantity, the usual one first.
