@@ -7,7 +7,8 @@
 //           (twice the greatest Nyquist velocity of the volume) or more, so a turn is its size: the
 //           plan leaves the rung off only if the budget allows errors of a turn.
 // Times     The rungs are timed on the sweep with the most velocities, and the time is scaled to
-//           the velocities of the volume.
+//           the velocities of the volume. A rung counts at least the time of the rung below,
+//           although `region` can be faster than `profile`.
 // Units     m/s and seconds.
 // Accuracy  Sizes are no bound of the error of single gates; most gates have none
 //           (docs/velocity.md, the ladder). No test holds the times, which depend on a clock.
