@@ -21,8 +21,8 @@ double deviation_m(double length_m, double drop_db) {
     return length_m / std::sqrt(2 * nepers_a_db * std::max(drop_db, 1.0));
 }
 
-// Returns the deviation of a Gaussian that is as narrow as the crests of a sine with this amplitude
-// in decibels.
+// Returns the deviation of a Gaussian that is as narrow as the crests of a sine of this amplitude in
+// decibels.
 double wave_deviation_m(double most_db, double length_m) {
     if (most_db <= 0) return std::numeric_limits<double>::infinity();
     return length_m / (2 * std::numbers::pi * std::sqrt(std::max(1.0, nepers_a_db * most_db)));
@@ -33,7 +33,7 @@ void shrink(FinestLengths& lengths, double across_m, double up_m) {
     lengths.up_m = std::min(lengths.up_m, up_m);
 }
 
-// Returns the deviation along the vertical of a leaning Gaussian.
+// Returns the deviation of a leaning Gaussian along the vertical.
 double leaning_m(double across_m, double up_m, double lean) {
     return 1 / std::hypot(1 / up_m, lean / across_m);
 }
@@ -72,8 +72,8 @@ void add(FinestLengths& lengths, const Box& box) {
     shrink(lengths, across_m, box.top_m - box.base_m);
 }
 
-// Profiles of winds have kinks, at the radius of a vortex and at levels. Kinks need closer points
-// than Gaussians.
+// Winds have kinks at the radius of a vortex and at levels. Kinks need closer points than
+// Gaussians.
 void add(FinestLengths& lengths, const Wind& wind) {
     constexpr double part = 0.1;
     for (const Vortex& vortex : wind.vortices) {
@@ -96,7 +96,7 @@ void normalize(std::vector<BeamNode>& nodes) {
     }
 }
 
-// Returns equally spaced points out to `reach` on both sides, with the weight of each.
+// Returns points that are equally spaced, out to `reach` on both sides, with the weight of each.
 template <typename Weight>
 std::vector<BeamNode> equal_steps(double step, double reach, Weight weight_at) {
     const auto side = static_cast<int>(std::floor(reach / step + 1e-9));

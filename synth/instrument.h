@@ -1,5 +1,6 @@
-// synth/instrument.h -- the effects of a simulated radar on the truth. Every effect is off by
-// default.
+// synth/instrument.h -- lists the effects that turn the truth into the data of a simulated radar.
+//
+// Every effect is off by default.
 //
 // The values come from the scene's [instrument] table (docs/scenes.md). The formulas are in
 // synth/beam_quadrature.h (beam width, pulse) and synth/synth_effects.h (the rest).
@@ -15,14 +16,14 @@ namespace stormcellar::synth {
 
 // Ground clutter around the radar.
 struct Clutter {
-    double peak_dbz = 50;    // at the radar, in a beam on the horizon
-    double range_m = 30000;  // where clutter is 10 dBZ
+    double peak_dbz = 50;    // at the radar, for a beam on the horizon
+    double range_m = 30000;  // clutter is 10 dBZ at this range
     double texture_db = 6;   // standard deviation from place to place
 };
 
-// Radials lost between two azimuths, clockwise, both included.
+// Lost radials: those between two azimuths, clockwise, both included.
 struct MissingSector {
-    std::optional<int> cut;  // from 1, in the order of the pattern; none: every cut
+    std::optional<int> cut;  // from 1, in the order of the pattern; none: all cuts
     double from_deg = 0;
     double to_deg = 0;
 };
@@ -31,18 +32,19 @@ struct Instrument {
     std::uint32_t seed = 0;         // for all random numbers
     double beam_width_deg = 0;      // half power, one way; 0: a line
     double pulse_length_m = 0;      // in space, c tau; 0: a point in range
-    double noise_db = 0;            // deviation of a reflectivity far above the noise; 0: exact
-    double velocity_noise_mps = 0;  // deviation of a velocity, likewise
-    // if off, velocities beyond the Nyquist velocity stay unchanged
+    double noise_db = 0;            // deviation of reflectivities far above the noise; 0: exact
+    double velocity_noise_mps = 0;  // deviation of velocities far above the noise; 0: exact
+    // if false, velocities beyond the Nyquist velocity stay as they are
     bool velocity_folding = false;
-    bool range_folding = false;     // if off, echo beyond the unambiguous range does not fold back
+    // If false, echo beyond the unambiguous range does not fold back.
+    bool range_folding = false;
     double azimuth_jitter_deg = 0;  // largest deviation from the nominal azimuth
     double elevation_jitter_deg = 0;
     double missing_fraction = 0;  // share of the radials, at random
     std::vector<MissingSector> missing_radials;
     std::vector<int> missing_cuts;     // from 1
     double missing_gate_fraction = 0;  // share of the gates, at random
-    // Share of the gates without echo that show an isolated, weak echo of random velocity.
+    // Share of the gates without echo that have an isolated, weak echo of random velocity.
     double speckle_fraction = 0;
     std::optional<Clutter> clutter;
 

@@ -16,12 +16,12 @@ constexpr float horizontal_noise_dbm = -81.5F;
 constexpr float vertical_noise_dbm = -81.25F;
 constexpr std::int16_t attenuation_thousandths = -12;
 
-// The place of a radial in the turn of its cut, and where the antenna points.
+// A radial's place in the turn of its cut, and the direction in which the antenna points.
 struct Pointing {
     std::size_t number = 0;  // from 0, lost radials included
     double azimuth_deg = 0;  // [0, 360)
     double elevation_deg = 0;
-    std::chrono::milliseconds since_start{0};  // of the volume
+    std::chrono::milliseconds since_start{0};  // since the start of the volume
 };
 
 level2::Radial radial_of(const Cut& cut, const Pointing& pointing, UtcTime volume_start) {
@@ -43,7 +43,7 @@ level2::Radial radial_of(const Cut& cut, const Pointing& pointing, UtcTime volum
     return radial;
 }
 
-// Runs through the cuts of one volume as the antenna does.
+// Goes through the cuts of one volume as the antenna does.
 class Antenna {
   public:
     Antenna(const Scene& scene, int number)
@@ -53,7 +53,7 @@ class Antenna {
           scene_s_(std::chrono::duration<double>(start_ - scene.schedule.start).count()),
           beam_(scene.site.latitude_deg, scene.site.antenna_altitude_m) {}
 
-    // Returns a sweep, which has no radials if all are missing.
+    // Returns a sweep. It has no radials if all of them are lost.
     level2::Sweep run(const Cut& cut, int elevation_number) {
         const std::vector<Pointing> pointings = turn(cut, elevation_number);
         level2::Sweep sweep;
@@ -77,7 +77,7 @@ class Antenna {
     }
 
   private:
-    // Makes one turn of the antenna, without the lost radials, and moves to the next cut.
+    // Makes one turn of the antenna, leaves out the lost radials, and moves to the next cut.
     std::vector<Pointing> turn(const Cut& cut, int elevation_number) {
         const Instrument& instrument = scene_.instrument;
         const double spacing_deg = cut.azimuth_spacing_deg;
@@ -113,7 +113,7 @@ class Antenna {
         const double azimuth_deg =
             pointing.azimuth_deg + instrument.azimuth_jitter_deg * off.azimuth;
         const double turned_deg = std::fmod(azimuth_deg + 360, 360);
-        // The float next below 360 would become 360.
+        // Otherwise the largest float below 360 would become 360.
         pointing.azimuth_deg = static_cast<float>(turned_deg) < 360.0F ? turned_deg : 0;
     }
 
@@ -129,7 +129,7 @@ class Antenna {
 level2::VolumeBlock block_of(const Scene& scene) {
     constexpr int usual_tower_m = 20;
     const int altitude_m = scene.site.antenna_altitude_m;
-    // If tower and ground were equally high, a reader would take the radar for a TDWR.
+    // If tower and ground had the same height, readers would take the radar for a TDWR.
     const int tower_m = altitude_m == 2 * usual_tower_m ? usual_tower_m - 1 : usual_tower_m;
     level2::VolumeBlock block;
     block.version_major = 2;

@@ -1,4 +1,4 @@
-// synth/plane.h -- points, offsets and motions in the plane of a scene.
+// synth/plane.h -- defines points, offsets and motions in the plane of a scene.
 //
 // Units     Meters, m/s, degrees. x points east and y north of the origin of the scene (the radar),
 //           in the azimuthal equidistant plane about it. z is the height above mean sea level.
@@ -28,8 +28,8 @@ struct Motion {
     double north_mps = 0;
 };
 
-// The place of another radar in the plane, and the angle by which its north is turned clockwise
-// from the plane's y, because meridians converge.
+// The place of another radar in the plane. Because meridians converge, its north is turned by an
+// angle, clockwise from the plane's y.
 struct Stand {
     double x_m = 0;
     double y_m = 0;
@@ -44,7 +44,7 @@ struct Stand {
             offset.north_m * cosine - offset.east_m * sine};
 }
 
-// Return the same place and the same motion in the plane of the radar at `stand`.
+// Return the same place, or the same motion, in the plane of the radar at `stand`.
 [[nodiscard]] inline Offset place_from(const Stand& stand, double x_m, double y_m) {
     return turned({x_m - stand.x_m, y_m - stand.y_m}, -stand.turn_deg);
 }

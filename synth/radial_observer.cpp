@@ -36,7 +36,7 @@ std::vector<grid::EarthPoint> gate_points(const grid::BeamGeometry& beam, const 
     std::vector<grid::EarthPoint> points;
     for (std::size_t gate = 0; gate < most; ++gate) {
         points.push_back(beam.forward({range_of(gate), elevation_deg}));
-        // The number of gates is a multiple of four, as for the RDA.
+        // The number of gates is a multiple of four, as in real radars.
         if (points.back().height_m > observed_height_m && points.size() % 4 == 0) break;
     }
     return points;
@@ -63,7 +63,7 @@ std::uint8_t code_of(double value, const SweepMoment& moment) {
     return static_cast<std::uint8_t>(std::clamp(code, 2.0, 255.0));
 }
 
-// The gates of a ray that may be inside a disc. They include all gates with echo.
+// The gates of a ray that may be inside a disc. All gates with echo are among them.
 struct GateSpan {
     std::size_t first = 0;
     std::size_t end = 0;
@@ -152,7 +152,7 @@ void RadialObserver::make_bands(Part& part) const {
     }
 }
 
-// Computes the places of the gates on a ray at the elevation of the radial.
+// Computes the places of the gates on a ray that has the elevation of the radial.
 void RadialObserver::aim(const level2::Radial& radial) {
     const double elevation_deg = radial.elevation_deg;
     if (elevation_deg == aimed_deg_) return;
@@ -162,13 +162,13 @@ void RadialObserver::aim(const level2::Radial& radial) {
     }
 }
 
-// Computes the points of a part. The first call computes all gates; later calls, as the antenna
-// jitters, compute only those that may be over the disc.
+// Computes the points of a part. The first call does so for all gates. The antenna jitters, so
+// later calls do so again, but only for the gates that may be over the disc.
 void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) const {
     if (elevation_deg == part.aimed_deg) return;
     const bool first_time = std::isnan(part.aimed_deg);
     part.aimed_deg = elevation_deg;
-    // larger than the offset of a beam's edges in range
+    // larger than the range by which the edges of a beam are offset
     constexpr double slack_m = 3000;
     const double distance_m = std::hypot(disc.x_m, disc.y_m);
     for (Band& band : part.bands) {
@@ -185,7 +185,7 @@ void RadialObserver::aim(Part& part, double elevation_deg, const Disc& disc) con
     }
 }
 
-// Returns true if some ray of the beam may pass over a disc.
+// Returns true if any ray of the beam may pass over a disc.
 bool RadialObserver::may_meet(const Disc& disc, const level2::Radial& radial) const {
     const double distance_m = std::hypot(disc.x_m, disc.y_m);
     if (distance_m <= disc.radius_m) return true;
@@ -198,7 +198,7 @@ bool RadialObserver::may_meet(const Disc& disc, const level2::Radial& radial) co
     return std::abs(off_deg) <= half_deg + beam_deg;
 }
 
-// Calls use(gate, point, sine, cosine) for the gates of a ray that may hold echo, each once.
+// Calls use(gate, point, sine, cosine) once for each gate of a ray that may hold echo.
 template <typename Use>
 void RadialObserver::walk(const Ray& ray, const std::vector<Disc>& discs, double ceiling_m,
                           Use use) {
@@ -256,7 +256,7 @@ void RadialObserver::write_gate(std::size_t row, std::size_t gate, const GateEch
     sw_.codes8[at(sw_)] = folded ? folded_code : code_of(echo.width_mps, sw_);
 }
 
-// Observes one radial if the instrument has no effects on gates.
+// Observes one radial if no effect of the instrument changes gates.
 void RadialObserver::observe_points(std::size_t row, const level2::Radial& radial, double t_s) {
     const Ray axis{radial.azimuth_deg, radial.elevation_deg, 1, 0, points_.size(), &points_};
     const double elevation_cosine = std::cos(radial.elevation_deg * degree);
@@ -282,7 +282,7 @@ void RadialObserver::sample_points(const level2::Radial& radial, double t_s) {
          });
 }
 
-// Adds up the echo of every ray of the beam, with its weight, and takes the mean of each gate.
+// Adds up the echo of every ray of the beam with its weight, and takes the mean of each gate.
 void RadialObserver::sample_beam(const level2::Radial& radial, double t_s) {
     std::fill(sums_.begin(), sums_.end(), BeamSum{});
     for (Part& part : parts_) {
@@ -339,8 +339,8 @@ void RadialObserver::add_clutter(const level2::Radial& radial) {
     }
 }
 
-// Returns the folded gates; only Doppler and batch cuts have any. The reflectivity of every cut is
-// computed as in a surveillance cut.
+// Returns the gates whose velocities are folded. Only Doppler and batch cuts have any. Reflectivity
+// is never folded, because it is computed as in a surveillance cut.
 std::vector<bool> RadialObserver::find_folded() const {
     const bool ambiguous = cut_.waveform == Waveform::doppler || cut_.waveform == Waveform::batch;
     if (!scene_.instrument.range_folding || !ambiguous) return {};

@@ -1,5 +1,6 @@
-// synth/radial_observer.h -- observes the gates of one sweep, radial by radial: samples of the
-// truth, then the effects of the instrument, then codes.
+// synth/radial_observer.h -- observes the gates of one sweep, radial by radial.
+//
+// It takes samples of the truth, applies the effects of the instrument, and makes codes.
 //
 // Units     Meters, degrees, seconds since the start of the scene.
 // Threads   One thread at a time. The scene and the beam must outlive it.
@@ -23,15 +24,16 @@ class RadialObserver {
         int cut = 1;              // from 1
         std::size_t radials = 0;  // rows of the sweep
     };
-    // `like` is any radial of the sweep; its calibration sets the detection limits.
+    // `like` is any radial of the sweep. Its calibration sets the detection limits.
     RadialObserver(const Scene& scene, const grid::BeamGeometry& beam, const Cut& cut,
                    const level2::Radial& like, const Place& place);
 
-    // Fills a row. `number` counts the radials of the full turn, lost ones included.
+    // Fills a row. `number` is the radial's number in the full turn, in which lost radials count.
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
-    // Computes the echo of each gate along a radial before noise, folding, loss and speckle: the
-    // sample at its center, or the mean over the beam and the pulse, with clutter.
+    // Computes the echo of each gate along a radial, before noise, folding, loss and speckle. The
+    // echo is the sample at the gate's center, or the mean over the beam and the pulse, with
+    // clutter.
     void sample(const level2::Radial& radial, double t_s);
     [[nodiscard]] const std::vector<GateEcho>& echoes() const { return echoes_; }
 
@@ -48,14 +50,14 @@ class RadialObserver {
         std::size_t end = 0;
         const std::vector<grid::EarthPoint>* points = nullptr;
     };
-    // Rays that share their elevation and their offset in range.
+    // Rays with the same elevation and the same offset in range.
     struct Row {
         double elevation_offset_deg = 0;
         double range_offset_m = 0;
         double weight = 1;
         std::vector<grid::EarthPoint> points;
     };
-    // A range of gates that are sampled by the same rays.
+    // A range of gates that the same rays sample.
     struct Band {
         std::size_t first = 0;
         std::size_t end = 0;
@@ -66,7 +68,7 @@ class RadialObserver {
     struct Part {
         Weather weather;
         double ceiling_m = 0;
-        double aimed_deg = 0;  // elevation for which the points were computed; NaN: not computed
+        double aimed_deg = 0;  // elevation of the computed points; NaN: not computed
         std::vector<Band> bands;
     };
     // Sums over the beam, in mm^6/m^3.
@@ -103,7 +105,7 @@ class RadialObserver {
     std::vector<grid::EarthPoint> points_;  // of the gates, on the axis of the beam
     std::vector<double> limits_dbz_;        // weakest reflectivity that is shown, by gate
     double ceiling_m_ = 0;                  // no echo is higher
-    double aimed_deg_ = 0;                  // elevation for which the points were computed
+    double aimed_deg_ = 0;                  // elevation of the computed points
     std::vector<Part> parts_;               // for a beam with a width
     std::vector<BeamSum> sums_;
     std::vector<GateEcho> echoes_;

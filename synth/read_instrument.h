@@ -9,8 +9,8 @@ namespace stormcellar::synth {
 // The azimuths that a scene file may give.
 inline constexpr TomlRange directions_deg{-360, 360};
 
-// Reads the table. `cuts` is the number of cuts in the pattern. A wrong value becomes a complaint,
-// and its default is used.
+// Reads the table. `cuts` is the number of cuts in the pattern. For each wrong value, notes a
+// complaint and uses the default.
 [[nodiscard]] Instrument read_instrument(TomlTable table, int cuts);
 
 }  // namespace stormcellar::synth

@@ -78,7 +78,7 @@ class Player {
     }
 
   private:
-    // The time at which a file, or a piece of a file, is due.
+    // The time at which a file, or one of its pieces, is due.
     struct Due {
         double seconds = 0;
         std::size_t item = 0;
@@ -92,7 +92,7 @@ class Player {
     Status play_whole() {
         double due_s = 0;
         for (const Arrival& arrival : arrivals_of(options_.faults, 0, items_.size())) {
-            // A reordered file comes right after the file before it in this order.
+            // A reordered file comes right after the file that now precedes it.
             due_s = std::max(due_s, turns_[arrival.piece].start_s);
             if (!wait_until(due_s, arrival.piece)) return {};
             const ReplayItem& item = items_[arrival.piece];
@@ -138,7 +138,7 @@ class Player {
         return {};
     }
 
-    // Writes one piece. The first piece begins the file. After the last piece the file is
+    // Writes one piece. The first piece begins the file. After its last piece, the file is
     // forgotten.
     Status play_next(std::size_t item) {
         auto place = growing_.find(item);
@@ -200,7 +200,7 @@ class Player {
         return to_string(name);
     }
 
-    // Notes an arrival and its fault. Returns how many bytes of the element to write.
+    // Notes an arrival and its fault. Returns the number of bytes of the element to write.
     std::size_t note_arrival(const ReplayItem& item, const fs::path& name, std::size_t chunk,
                              const Arrival& arrival, std::size_t bytes) {
         const std::size_t kept = kept_bytes(arrival, bytes);
@@ -247,7 +247,7 @@ class Player {
     PieceWriter writer_;
     std::map<std::size_t, Growing> growing_;  // by item
     ReplayReport report_;
-    bool has_begun_ = false;  // the pieces due before past_s are written
+    bool has_begun_ = false;  // the pieces due before past_s have been written
     Clock::time_point begin_;
 };
 

@@ -1,32 +1,33 @@
-// synth/replay.h -- plays files into a drop directory as LDM would.
+// synth/replay.h -- writes files into a drop directory as LDM would.
 //
-// There are four ways of writing:
-//   whole    Each file is written under a dot-name and then renamed, as a script does at the last
-//            chunk of a volume.
-//   growing  Each file is opened, one piece is appended, and the file is closed, again and again,
-//            like pqact's `FILE -close`.
-//   open     Each file is opened, and pieces are appended without closing it, like pqact's `FILE`.
-//            A file stays open until `most_open_files` others were written after it, or to the end.
-//   chunks   There is one file for each piece, DROP/KTLX/494/20220317-000842-001-S, like pqact's
-//            `FILE -close` with the number of the chunk in the name. It is written in place and
-//            closed, as by pqact, never under another name first. Station and time come from the
-//            header (or from the file name, if the header has no station). The volume's number
-//            comes from the header, or is the next free one if an earlier volume has it. The first
-//            chunk is S. The last is E if its control word is negative, as at the end of a volume.
-//            All others are I.
-// synth/replay_pieces.h defines the pieces, synth/replay_faults.h the faults. Gzipped files are
-// unpacked for chunks only.
+// Files are written in one of four ways:
+//   whole    Each file is written under a dot-name and then renamed, as by a script that runs at
+//            the last chunk of a volume.
+//   growing  Again and again, a file is opened, one piece is appended, and the file is closed, as
+//            by pqact's `FILE -close`.
+//   open     A file is opened, and pieces are appended without closing it, as by pqact's `FILE`. It
+//            stays open until `most_open_files` other files have been written after it, or to the
+//            end.
+//   chunks   Each piece is a file, DROP/KTLX/494/20220317-000842-001-S, as by pqact's `FILE -close`
+//            with the number of the chunk in the name. It is written under this name from the
+//            beginning, and closed, as by pqact. Station and time come from the header (or from the
+//            file name, if the header has no station). The volume's number comes from the header;
+//            if an earlier volume has that number, the next free one is used. The first chunk is S.
+//            The last is E if its control word is negative, as at the end of a volume. All others
+//            are I.
+// synth/replay_pieces.h defines the pieces, and synth/replay_faults.h the faults. Gzipped files are
+// unpacked only for chunks.
 //
-// The first piece of a file comes at the time in its header. Its other pieces are spread evenly
-// until the same station's next volume begins, over at most `longest_volume_s`. The last volume of
-// a station takes as long as the station's volume before it, and the only volume of a station takes
-// `usual_volume_s`. So volumes of several stations overlap, as in a feed. Whole files come at the
-// time in their header. Files without a readable header come last, in order of their names, without
-// a wait.
+// The first piece of a file comes at the time in its header. The other pieces come at equal
+// intervals until the same station's next volume begins, but within `longest_volume_s`. The last
+// volume of a station takes as long as the station's previous volume; the only volume of a station
+// takes `usual_volume_s`. So volumes of several stations overlap, as in a feed. Whole files come at
+// the time in their header. Files without a readable header come last, in the order of their names,
+// without waits.
 //
-// Sources are only read. Files that were already in the drop directory are never overwritten.
+// Sources are only read. Files that are already in the drop directory are never overwritten.
 //
-// Memory    Holds the files that are growing at the same time.
+// Memory    Holds all files that are growing at the same time.
 // Threads   One thread at a time; another thread may set `stop`.
 #pragma once
 
@@ -58,38 +59,39 @@ struct ReplayItem {
     bool has_records = false;        // LDM records, maybe inside gzip
 };
 
-// Finds the files to play, in the order of replay. Files keep their own names. Archives (tar, zip)
-// give their members under their names. Directories give all regular files in them under their
-// relative names, but no dot-files, which may still be written. Errors: not_found if there is
-// nothing at all; bad_argument if two files would get the same name.
+// Finds the files to play, in the order of replay. A file keeps its name. An archive (tar, zip)
+// stands for its members, which keep their names. A directory stands for all regular files in it,
+// with their relative names. Dot-files are left out, because they may still be written. Errors:
+// not_found if there is nothing at all; bad_argument if two files would get the same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
-// Returns why a file cannot be played in chunks; empty if it can.
+// Returns the reason why a file cannot be played in chunks; empty if it can.
 [[nodiscard]] std::string_view why_not_in_chunks(const ReplayItem& item);
 
 enum class Delivery : std::uint8_t { whole, growing, open, chunks };
 
 struct ReplayOptions {
     Delivery delivery = Delivery::whole;
-    // Seconds from one file to the next. If empty, files come at the times in their headers,
-    // divided by `speed`.
+    // Seconds from one file to the next. If empty, files come at the times in their headers, sped
+    // up by `speed`.
     std::optional<double> interval_s;
     double speed = 1;
     FaultRates faults;
-    const std::atomic<bool>* stop = nullptr;         // when set, the replay ends between two pieces
+    // Ends the replay before the next piece when it is set.
+    const std::atomic<bool>* stop = nullptr;
     std::function<void(std::size_t done)> replayed;  // called after each file
     // Called after each file, with its item.
     std::function<void(const ReplayItem& item)> ended;
-    // Called with a file's bytes before they are written. It may change the bytes, but not the ends
-    // of the pieces.
+    // Called with the bytes of a file before they are written. It may change the bytes, but not
+    // where the pieces end.
     std::function<void(const ReplayItem& item, std::span<std::byte> bytes)> stamp;
     // Pieces that are due in the first `past_s` seconds are written at once, as if the replay had
     // begun that long ago. Then `begun` is called, and the clock continues from `past_s`.
     double past_s = 0;
     std::function<void()> begun;
-    // Called before each wait of more than `long_wait_s`, with its length and the source of the
-    // next file.
+    // Called before each wait of more than `long_wait_s`, with the length of the wait and the
+    // source of the next file.
     std::function<void(double seconds, const std::filesystem::path& source)> waits;
 };
 
@@ -98,7 +100,7 @@ inline constexpr double long_wait_s = 10;
 // The plan of a replay.
 struct ReplayPlan {
     std::size_t files = 0;
-    std::optional<UtcTime> first, last;  // times of the files; none if no file has one
+    std::optional<UtcTime> first, last;  // times of the files; none if no file has a time
     double takes_s = 0;                  // without the time for writing
 };
 [[nodiscard]] ReplayPlan plan_replay(const std::vector<ReplayItem>& items,
@@ -108,11 +110,11 @@ struct ReplayPlan {
 struct FaultMade {
     Fault fault = Fault::none;
     std::filesystem::path source;
-    // of the file, or of the chunk's own file, below the drop directory
+    // the file's name, or that of the chunk's own file, below the drop directory
     std::filesystem::path name;
-    std::size_t chunk = 0;         // from 1, within the source; 0: the whole file
-    std::uint64_t bytes = 0;       // its size
-    std::uint64_t kept_bytes = 0;  // written bytes: fewer if truncated, 0 if dropped
+    std::size_t chunk = 0;         // from 1, within the source; 0: the fault affects the whole file
+    std::uint64_t bytes = 0;       // size of the element
+    std::uint64_t kept_bytes = 0;  // bytes that were written: fewer if truncated, 0 if dropped
 };
 
 struct ReplayReport {
@@ -125,8 +127,8 @@ struct ReplayReport {
 };
 
 // Plays the items. Errors before anything is written: io if the target of an item exists;
-// bad_argument for chunks of a file that holds no LDM records, or whose time or station are
-// unknown. Later errors are those of reading or writing; files written before stay.
+// bad_argument for chunks of a file that has no LDM records, or an unknown time or station. Later
+// errors are those of reading or writing, and leave the files that were written before.
 [[nodiscard]] Result<ReplayReport> replay(const std::vector<ReplayItem>& items,
                                           const std::filesystem::path& drop,
                                           FileSystem& file_system, const ReplayOptions& options);

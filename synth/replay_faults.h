@@ -1,16 +1,16 @@
-// synth/replay_faults.h -- makes deliberate faults on the way to a drop directory.
+// synth/replay_faults.h -- makes deliberate faults in the files that a replay writes.
 //
-// A fault affects one element of a row. If files come piece by piece, each file is a row, and its
-// pieces are the elements. Otherwise the files together are one row.
-//   drop      The element never comes. In a file that grows, its bytes are missing in the middle.
-//   repeat    It comes twice in succession. A piece is appended again; a file is written again with
-//             the same bytes.
+// A fault affects one element of a row. If files come piece by piece, each file is a row and its
+// pieces are the elements. Otherwise, all files together are one row, and each is an element.
+//   drop      The element never comes. If its file grows, its bytes are missing in the middle.
+//   repeat    It comes twice in succession: a piece is appended again, or a file is written again
+//             with the same bytes.
 //   reorder   It comes after the next element of its row.
-//   truncate  Its last bytes are missing: a random number, at least one and not all.
-// Each element has at most one fault. The element that follows a reordered element in the row has
-// no fault. The last element of a row is not reordered, and an element of less than two bytes is
-// not truncated. Random numbers depend only on the seed and on the place in the row, so the same
-// sources give the same faults at any speed.
+//   truncate  Its last bytes are missing: a random number of them, at least one and not all.
+// An element has at most one fault. An element right after a reordered element has no fault. The
+// last element of a row is not reordered, and an element of less than two bytes is not truncated.
+// Random numbers depend only on the seed and on the place in the row, so the same sources get the
+// same faults at any speed.
 //
 // Threads   Pure functions.
 #pragma once
@@ -33,11 +33,11 @@ struct FaultRates {
     std::uint32_t seed = 1;
 };
 
-// Parses "drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7": any of these, each at most
-// once. Errors: bad_argument; the message says what is wrong and what is allowed.
+// Parses "drop=0.01,repeat=0.01,reorder=0.02,truncate=0.005,seed=7". Each name may be left out.
+// Errors: bad_argument; the message says what is wrong and what is allowed.
 [[nodiscard]] Result<FaultRates> parse_fault_rates(std::string_view text);
 
-// One write of an element. A dropped element has an arrival, too, but nothing is written.
+// One write of an element. A dropped element also has an arrival, but nothing is written.
 struct Arrival {
     std::size_t piece = 0;
     Fault fault = Fault::none;
@@ -48,7 +48,7 @@ struct Arrival {
 // Returns the writes in their order. `row` is the number of the row.
 [[nodiscard]] std::vector<Arrival> arrivals_of(const FaultRates& rates, std::uint32_t row,
                                                std::size_t pieces);
-// Returns how many of these bytes are kept: all of them unless the element was truncated.
+// Returns how many of these bytes are kept: all, unless the element is truncated.
 [[nodiscard]] std::size_t kept_bytes(const Arrival& arrival, std::size_t bytes);
 
 }  // namespace stormcellar::synth

@@ -25,8 +25,8 @@ constexpr double most_gap_m = 650, widest_gap_m = 1'500;
 
 constexpr std::size_t band_count = 5;
 using Edges = std::array<double, band_count - 1>;
-// The heights with marks. They also divide the line into bands of color, as on the hodographs of the
-// Weather Service.
+// The heights with marks. They also divide the line into bands of color, as on the hodographs of
+// the Weather Service.
 Edges edges_of(const Units& units) {
     if (facts_of(units.height).si < 400) {  // feet
         constexpr double kft_m = 304.8;
