@@ -21,8 +21,8 @@ double deviation_m(double length_m, double drop_db) {
     return length_m / std::sqrt(2 * nepers_a_db * std::max(drop_db, 1.0));
 }
 
-// Returns the deviation of a Gaussian that is as narrow as the crests of a sine of this amplitude in
-// decibels.
+// Returns the deviation of a Gaussian that is as narrow as the crests of a sine of this amplitude
+// in decibels.
 double wave_deviation_m(double most_db, double length_m) {
     if (most_db <= 0) return std::numeric_limits<double>::infinity();
     return length_m / (2 * std::numbers::pi * std::sqrt(std::max(1.0, nepers_a_db * most_db)));

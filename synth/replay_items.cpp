@@ -1,4 +1,4 @@
-// find_replay_items() finds the files to play, and their order.
+// Finds the files to play, and their order.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t start_bytes = 64U << 10U;  // holds the header, gzipped or not
+constexpr std::size_t start_bytes = 64U << 10U;  // enough for the header, gzipped or not
 
 void read_facts(ReplayItem& item, std::span<const std::byte> bytes) {
     level2::GzipStream gzip(bytes);
@@ -36,7 +36,7 @@ void read_facts(ReplayItem& item, std::span<const std::byte> bytes) {
     if (item.station.empty()) item.station = station_in_name(item.name.filename().string());
 }
 
-// Reads the start of a file. A file that cannot be read is reported when its turn comes.
+// Reads the start of a file. If a file cannot be read, this is reported when its turn comes.
 void read_start(ReplayItem& item) {
     std::vector<char> start(start_bytes);
     std::ifstream file(item.source, std::ios::binary);
@@ -122,7 +122,7 @@ Result<std::vector<ReplayItem>> find_replay_items(const std::vector<fs::path>& s
                         item.source.native());
         }
         std::error_code ignored;
-        // The start of a member was already read.
+        // The starts of members have been read already.
         if (fs::exists(item.source, ignored)) read_start(item);
     }
     std::sort(items.begin(), items.end(), earlier);

@@ -33,7 +33,8 @@ std::vector<std::size_t> piece_ends(std::span<const std::byte> bytes) {
         bool record_seen = false, header_waits = false;
         while (const auto part = framer.next()) {
             if (part->kind != Kind::record && part->kind != Kind::header) continue;
-            // End the previous piece before a header, which belongs to the record after it.
+            // End the previous piece before a header, because the header belongs to the record
+            // after it.
             if (record_seen && !header_waits) ends.push_back(part->position);
             header_waits = part->kind == Kind::header;
             record_seen = record_seen || part->kind == Kind::record;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_replay_s = 1e8;  // three years: no clock overflows
+constexpr double longest_replay_s = 1e8;  // three years, so that no clock overflows
 constexpr int most_numbers = 1000;        // of volumes: 0 to 999
 
 std::vector<ReplayTurn> one_by_one(std::size_t files, double interval_s) {
@@ -36,7 +36,7 @@ std::vector<ReplayTurn> turns_of(const std::vector<ReplayItem>& items,
     double start_s = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
         const ReplayItem& item = items[i];
-        if (!item.time) {  // after all items that have a time
+        if (!item.time) {  // sorted after all items that have a time
             turns[i].start_s = start_s;
             continue;
         }

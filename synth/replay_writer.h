@@ -16,16 +16,16 @@ namespace stormcellar::synth {
 
 class PieceWriter {
   public:
-    // Up to `most_open` files stay open after append(). With 0, each is closed at once.
+    // Up to `most_open` files stay open after append(). If it is 0, each file is closed at once.
     explicit PieceWriter(std::size_t most_open) : most_open_(most_open) {}
     PieceWriter(const PieceWriter&) = delete;
     PieceWriter& operator=(const PieceWriter&) = delete;
     ~PieceWriter();
 
-    // Appends to a file, which is made if it does not exist.
+    // Appends to a file. Makes the file if it does not exist.
     [[nodiscard]] Status append(const std::filesystem::path& path,
                                 std::span<const std::byte> bytes);
-    // Writes a file that holds these bytes and nothing else, and closes it.
+    // Writes a file that holds only these bytes, and closes it.
     [[nodiscard]] Status put(const std::filesystem::path& path, std::span<const std::byte> bytes);
     // Closes all open files.
     [[nodiscard]] Status close();
@@ -34,7 +34,8 @@ class PieceWriter {
     [[nodiscard]] Status close_oldest();
 
     std::size_t most_open_;
-    std::list<std::pair<std::filesystem::path, int>> open_;  // the file written last is at the end
+    // The last one is the file written last.
+    std::list<std::pair<std::filesystem::path, int>> open_;
 };
 
 }  // namespace stormcellar::synth

@@ -49,7 +49,7 @@ std::optional<double> SampledTruth::radial_velocity_mps(const Place& place, cons
     const double east_m = there.x_m - here.x_m;
     const double north_m = there.y_m - here.y_m;
     const double apart_m = std::hypot(east_m, north_m);
-    if (apart_m <= 0) return 0;  // straight above, the motion is across the beam
+    if (apart_m <= 0) return 0;  // straight above, all motion is across the beam
     const grid::SiteFrame frame(site.latitude_deg, site.longitude_deg);
     const double arc_m = frame.to_polar({place.latitude_deg, place.longitude_deg}).arc_m;
     return (echo.motion.east_mps * east_m + echo.motion.north_mps * north_m) / apart_m *

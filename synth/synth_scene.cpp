@@ -20,7 +20,7 @@ constexpr double km = 1000;
 
 constexpr TomlRange nyquists_mps{2, 63};  // 8-bit velocities end at 63 m/s
 
-// Reads a required key. If it is missing or wrong, notes a complaint and uses the least value.
+// Reads a required key. If it is missing or wrong, notes a complaint and returns the least value.
 double needed_number(TomlTable& table, std::string_view key, TomlRange range) {
     if (!table.has(key)) table.complain(key, "is missing");
     return table.number(key, range).value_or(range.least);
@@ -41,7 +41,7 @@ struct Pair {
     double second = 0;
 };
 
-// Reads two numbers, as [east, north].
+// Reads two numbers: [east, north].
 Pair pair_or(TomlTable& table, std::string_view key, TomlRange range, Pair otherwise) {
     const auto numbers = table.numbers(key);
     if (!numbers) return otherwise;
@@ -106,7 +106,7 @@ Cut read_cut(TomlTable& table) {
     cut.doppler_prf = table.whole_number("doppler_prf", {4, 8}).value_or(6);
     if (!has_velocity(cut)) cut.doppler_prf = 0;
     const auto nyquist_mps = table.number("nyquist_mps", nyquists_mps);
-    // Message 31 holds hundredths.
+    // Message 31 holds hundredths of m/s.
     if (nyquist_mps) cut.nyquist_mps = static_cast<float>(std::round(*nyquist_mps * 100)) / 100.0F;
     if (nyquist_mps && !has_velocity(cut)) {
         table.complain("nyquist_mps", "is for cuts with velocity");
@@ -211,7 +211,7 @@ Storm read_storm(TomlTable& table) {
     return storm;
 }
 
-// Reads the keys that layers and boxes share: footprint, base and top, and strength.
+// Reads the keys that layers and boxes have in common: footprint, base and top, and strength.
 template <class Echo>
 Echo read_slab(TomlTable& table) {
     Echo echo;
@@ -292,8 +292,8 @@ Wind read_wind(TomlTable& table) {
     return wind;
 }
 
-// Returns the place of the radar in the plane about the weather's own origin; none if the radar is
-// the origin.
+// Returns the place of the radar in the plane about the weather's own origin. Returns none if the
+// radar is at the origin.
 std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     const bool has_latitude = weather.has("latitude_deg");
     if (has_latitude != weather.has("longitude_deg")) {
@@ -306,7 +306,7 @@ std::optional<Stand> read_stand(TomlTable weather, const Site& site) {
     return stand_of(site, *latitude_deg, *longitude_deg);
 }
 
-// Refuses scenes of pictures, which are .toml files too.
+// Refuses the scenes of pictures, because these are .toml files, too.
 Status check_kind(const TomlTable& root, const std::string& name) {
     if (root.has("radar")) return {};
     for (const char* section : {"picture", "camera", "light", "volume", "labels", "plan", "loop"}) {

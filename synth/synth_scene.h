@@ -1,10 +1,11 @@
-// synth/synth_scene.h -- the input of a simulated radar: one site, its schedule and the weather.
+// synth/synth_scene.h -- describes the input of a simulated radar: one site, its schedule and the
+// weather.
 //
-// A scene is read from TOML; docs/scenes.md has every key, with units and defaults.
+// A scene is read from TOML. docs/scenes.md has every key with its unit and its default.
 //
 // Units     Each member names its unit.
 // Threads   Plain data and pure functions.
-// Errors    bad_argument, with the file, the line and the key; errors of reading the file.
+// Errors    bad_argument, with the file, the line and the key; and those of reading the file.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +21,7 @@
 namespace stormcellar::synth {
 
 struct Site {
-    std::string station;  // ICAO; names the files
+    std::string station;  // ICAO; part of the file names
     double latitude_deg = 0;
     double longitude_deg = 0;
     int antenna_altitude_m = 0;  // whole meters, as in message 31
@@ -28,8 +29,8 @@ struct Site {
 
 struct Schedule {
     int count = 1;
-    UtcTime start;            // of the first volume; t = 0 of the weather
-    double interval_s = 300;  // from one start to the next; never shorter than the pattern takes
+    UtcTime start;            // of the first volume; the time t of the weather is 0 then
+    double interval_s = 300;  // from one start to the next; not shorter than the pattern takes
     Pattern pattern;
 
     [[nodiscard]] UtcTime start_of(int volume) const;
@@ -38,12 +39,12 @@ struct Schedule {
 struct Scene {
     Site site;
     Schedule schedule;
-    Weather weather;  // in the plane about the site, even if the file gives another origin
+    Weather weather;  // in the plane about the site, even if the file has another origin
     Instrument instrument;
 };
 
-// Returns the place of a radar in the plane of weather whose origin is at the given position. With
-// this place, two scenes of the same origin describe two radars that see the same weather.
+// Returns the place of a radar in the plane of weather that has its origin at this position. With
+// it, two scenes with the same origin describe two radars that see the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
 // Parses a scene. `name` stands for the file in messages.

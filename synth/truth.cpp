@@ -46,8 +46,8 @@ Offset offset_from(const Footprint& footprint, const Point& point, double t_s,
             point.y_m - footprint.y_m - footprint.motion.north_mps * t_s - lean.north_m};
 }
 
-// Returns a lower bound of squared_radii(), for which the larger axis applies in all directions.
-// For most points this bound is enough, which saves the rotation.
+// Returns a lower bound of squared_radii(): the result if the larger axis applied in all
+// directions. This is enough for most points, and saves the rotation.
 double least_squared_radii(const Footprint& footprint, const Offset& offset) {
     return (square(offset.east_m) + square(offset.north_m)) /
            square(std::max(footprint.major_m, footprint.minor_m));
@@ -91,7 +91,7 @@ double storm_dbz(const Storm& storm, const Offset& offset, double z_m) {
 // `from_center_m` is the point's distance from the center of the circle.
 double distance_to_arc(const Hook& hook, double east_m, double north_m, double from_center_m) {
     const double azimuth_deg = std::atan2(east_m, north_m) / degree;
-    // The turn is clockwise from the beginning of the arc, 0 to 360.
+    // The turn is 0 to 360, clockwise from the beginning of the arc.
     const double turn_deg =
         azimuth_deg - hook.from_deg - 360 * std::floor((azimuth_deg - hook.from_deg) / 360);
     if (turn_deg <= hook.to_deg - hook.from_deg) return std::abs(from_center_m - hook.radius_m);
@@ -110,8 +110,7 @@ double hook_dbz(const Hook& hook, const Offset& offset, double z_m) {
         const double fall = square(distance_m / hook.width_m) + square(z_m / hook.top_m);
         return hook.peak_dbz - (hook.peak_dbz - edge_dbz) * fall;
     };
-    // The arc is at least as far away as its circle, and the distance to the circle is quick to
-    // compute.
+    // The arc is at least as far away as its circle, whose distance is quick to compute.
     if (dbz_at(from_center_m - hook.radius_m) < weakest_dbz) return nothing;
     return dbz_at(distance_to_arc(hook, east_m, north_m, from_center_m));
 }
@@ -151,7 +150,7 @@ double box_dbz(const Box& box, const Point& point, double t_s) {
     return flat_dbz + box.wave.most_db * std::sin(2 * std::numbers::pi * way_m / box.wave.length_m);
 }
 
-// Adds up the reflectivities of features in mm^6/m^3, and their motions with these as weights.
+// Adds up the reflectivities of features in mm^6/m^3, and their motions weighted by these.
 class Sum {
   public:
     void add(double dbz, const Motion& motion) {

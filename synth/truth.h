@@ -1,25 +1,26 @@
-// synth/truth.h -- an analytic atmosphere: the reflectivity at any point and time, in closed form.
+// synth/truth.h -- defines an analytic atmosphere: the reflectivity at any point and time, in
+// closed form.
 //
-// Storms and layers drift with constant velocity over a plane. This is the truth that a simulated
-// radar observes, and with which a grid from its data can be compared.
+// Storms and layers drift with constant velocity over a plane. A simulated radar observes this
+// truth, and a grid that is made from its data can be compared with it.
 //
-// Each feature has its own reflectivity, and ends where that falls below -20 dBZ. Where features
-// overlap, their reflectivities add as mm^6/m^3.
+// Each feature has its own reflectivity, and ends where that is below -20 dBZ. If features overlap,
+// their reflectivities are added in mm^6/m^3.
 //   storm   peak - (peak - 10) (r^2 + h^2) + ripple
 //           r is the distance from the axis in units of the radii. The axis leans with height by
-//           `tilt` and is at (x, y) at the height of the core. h = (z - core) / (top - core) above
-//           the core, 0 below. So a storm has 10 dBZ at its radii and at its top.
+//           `tilt`, and is at (x, y) at the height of the core. h is (z - core) / (top - core)
+//           above the core, and 0 below it. So a storm has 10 dBZ at its radii and at its top.
 //   hook    dbz - (dbz - 10) ((d / width)^2 + (z / top)^2)
-//           d is the horizontal distance from an arc of a circle, which moves and leans with its
+//           d is the horizontal distance from an arc of a circle that moves and leans with its
 //           storm.
 //   layer   dbz - (dbz - 10) r^4 + bright_band exp(-((z - melting) / depth)^2)
 //             - lapse max(0, z - melting) + ripple, only between base and top
 //   box     dbz - (dbz - 10) (d / edge)^2 + wave sin(2 pi s / length), only between base and top
-//           d is the horizontal distance from the rectangle, s the distance from its center along
-//           an azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut off
-//           sharply at its base and its top.
+//           d is the horizontal distance from the rectangle, and s the distance from its center
+//           along an azimuth. So a box is flat, has 10 dBZ at `edge` beyond its sides, and is cut
+//           off sharply at its base and its top.
 //
-// The air that carries the echo moves with its feature, or with the wind if the weather has one.
+// The air that carries the echo moves with the wind if the weather has one, else with its feature.
 // The features themselves always drift by their own motions.
 //
 // Units     As in synth/plane.h; dBZ; t is the time in seconds since the start of the scene.
@@ -36,12 +37,12 @@
 
 namespace stormcellar::synth {
 
-inline constexpr double edge_dbz = 10;      // of a feature at its radii
+inline constexpr double edge_dbz = 10;      // reflectivity of a feature at its radii
 inline constexpr double weakest_dbz = -20;  // a feature ends below this
-// where there is no feature
+// reflectivity outside all features
 inline constexpr double no_echo_dbz = -std::numeric_limits<double>::infinity();
 
-// An upright elliptic column, which drifts over the plane.
+// An upright elliptic column that drifts over the plane.
 struct Footprint {
     double x_m = 0;  // the center at t = 0
     double y_m = 0;
@@ -51,14 +52,14 @@ struct Footprint {
     double orientation_deg = 0;  // azimuth of the major axis
 };
 
-// A smooth pattern that moves with its feature: the mean of three waves in different directions.
+// A smooth pattern that moves with its feature: the mean of three waves with different directions.
 struct Ripple {
     double most_db = 0;  // largest change, up or down
     double length_m = 5000;
     double turn_deg = 0;  // the directions of the waves, clockwise
 };
 
-// The arc of a hook echo, seen from its storm's axis.
+// The arc of a hook echo, as seen from the axis of its storm.
 struct Hook {
     double x_m = 0;  // center of the circle, east and north of the axis
     double y_m = 0;
@@ -93,14 +94,14 @@ struct Layer {
     Ripple ripple;
 };
 
-// Stripes across a box, which move with it.
+// Stripes across a box, which move with the box.
 struct Wave {
     double most_db = 0;
     double length_m = 10000;
     double azimuth_deg = 90;  // across the stripes
 };
 
-// A plateau with sides of any steepness. The half axes of its footprint are half its sides.
+// A plateau with sides of any steepness. The half axes of its footprint are half of its sides.
 struct Box {
     Footprint footprint;
     double base_m = 0;
@@ -118,15 +119,16 @@ struct Weather {
 };
 
 // Returns the same weather in the plane about the radar at `stand`, as if both planes were one. The
-// error is the difference of their scales across the radius, (arc / earth radius)^2 / 6: 50 m if
-// both radars are 200 km away.
+// error is the difference of their scales across the radius, (arc / earth radius)^2 / 6. It is 50 m
+// if the radars are 200 km apart.
 [[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
-// Returns the reflectivity, or minus infinity if there is nothing.
+// Returns the reflectivity; minus infinity if there is nothing.
 [[nodiscard]] double truth_dbz(const Weather& weather, const Point& point, double t_s);
 
-// The reflectivity at a point, and the motion of the air there: the wind, or else the mean motion
-// of the features, weighted by their reflectivities in mm^6/m^3; zero without echo.
+// The reflectivity at a point, and the motion of the air there. The motion is the wind, or, if the
+// weather has none, the mean motion of the features, weighted by their reflectivities in mm^6/m^3.
+// It is zero without echo.
 struct Echo {
     double dbz = 0;
     Motion motion;
@@ -140,7 +142,7 @@ struct LinearEcho {
 };
 [[nodiscard]] LinearEcho linear_truth(const Weather& weather, const Point& point, double t_s);
 
-// Discs, one for each feature, that contain all echo at a time, at any height. Outside them
+// Discs, one for each feature, that contain all echo at a time, at all heights. Outside them,
 // truth_dbz() is minus infinity.
 struct Disc {
     double x_m = 0;

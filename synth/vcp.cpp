@@ -10,8 +10,7 @@ namespace {
 constexpr double elevation_step_deg = 180.0 / 32768;
 constexpr double rate_step_deg_s = 22.5 / 16384;
 
-// The facts of each PRF, by its number. They come from the radial blocks of real volumes of one
-// radar.
+// The facts of each PRF, by its number, from the radial blocks of real volumes of one radar.
 struct PrfFacts {
     float unambiguous_range_m;
     float nyquist_mps;
@@ -31,8 +30,8 @@ constexpr auto doppler = Waveform::doppler;
 constexpr auto batch = Waveform::batch;
 constexpr auto high = Waveform::doppler_without_ambiguity;
 
-// One line of a pattern as in message 5, with the rate in its units and the threshold in eighths of
-// a decibel.
+// One line of a pattern as in message 5. The rate is in the units of the message, and the threshold
+// in eighths of a decibel.
 struct Line {
     double elevation_deg;
     Waveform waveform;
@@ -94,13 +93,13 @@ constexpr Line lines_215[] = {
     {16.6992, high, 18672, 0, 0, 8, 50, 8},        {19.5117, high, 18672, 0, 0, 8, 50, 8},
 };
 
-// Returns the facts of the cut's PRF. A number outside the table gives the nearest row.
+// Returns the facts of the cut's PRF. For a number outside the table, returns the nearest row.
 const PrfFacts& facts_of(const Cut& cut) {
     const int number = has_velocity(cut) ? cut.doppler_prf : cut.surveillance_prf;
     return prf_facts[static_cast<std::size_t>(std::clamp(number, 0, 8))];
 }
 
-// The three Doppler sectors of real patterns begin at 30, 210 and 335 degrees.
+// Returns the three Doppler sectors of real patterns, which begin at 30, 210 and 335 degrees.
 std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
     std::array<std::uint8_t, 22> rest{};
     if (!has_velocity(cut)) return rest;
@@ -118,7 +117,7 @@ std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
 }
 
 // Returns the flags of message 5: half degree radials (1), 250 m reflectivity (2), Doppler to 300
-// km (4). The flag of dual polarization stays off, because simulated radars do not send it.
+// km (4). The flag for dual polarization stays off, because simulated radars do not send it.
 std::uint8_t resolution_flags(const Cut& cut) {
     unsigned flags = 2;
     if (cut.azimuth_spacing_deg < 1) flags |= 1U;
@@ -164,7 +163,7 @@ double duration_s(const Cut& cut) {
 }
 
 double duration_s(const Pattern& pattern) {
-    double total_s = -move_s;  // there is no move after the last cut
+    double total_s = -move_s;  // the antenna does not move after the last cut
     for (const Cut& cut : pattern.cuts) {
         total_s += duration_s(cut);
     }

@@ -1,8 +1,9 @@
-// synth/vcp.h -- the volume coverage patterns that simulated radars run.
+// synth/vcp.h -- defines the volume coverage patterns that simulated radars run.
 //
-// Angles, rates, pulses, PRFs and thresholds of the built-in patterns come from message 5 in real
-// volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1 minutes)
-// and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split cuts.
+// Angles, rates, pulses, PRFs and thresholds of the built-in patterns are those of message 5 in
+// real volumes: 212 (2015, precipitation, 17 cuts in 4.7 minutes), 215 (2020, 18 cuts in 6.1
+// minutes) and 35 (2022, clear air, 12 cuts in 7.2 minutes). The lowest three angles are split
+// cuts.
 //
 // Threads   Plain data and pure functions.
 #pragma once
@@ -32,7 +33,7 @@ struct Cut {
     int doppler_prf = 0;
     int doppler_pulses = 0;
     float snr_threshold_db = 2;
-    float nyquist_mps = 0;  // in hundredths; 0: as the PRF has it
+    float nyquist_mps = 0;  // in hundredths; 0: that of the PRF
 };
 
 struct Pattern {
@@ -48,14 +49,14 @@ struct Pattern {
 [[nodiscard]] const Pattern* find_pattern(int number);
 [[nodiscard]] std::span<const int> pattern_numbers();
 
-// Return the consequences of the PRFs of a cut. A Nyquist velocity of the cut itself goes before
-// the one of its PRF.
+// Return the consequences of the PRFs of a cut. A Nyquist velocity that the cut itself has takes
+// precedence over that of its PRF.
 [[nodiscard]] float nyquist_mps(const Cut& cut);
 [[nodiscard]] float unambiguous_range_m(const Cut& cut);
 [[nodiscard]] bool has_velocity(const Cut& cut);
 
-// The time from the first radial of a cut to the first radial of the next is the time of the turn
-// plus this time, in which the antenna moves.
+// The antenna moves for this long between two cuts. The time from the first radial of a cut to that
+// of the next cut is the time of the turn plus this.
 inline constexpr double move_s = 1.2;
 [[nodiscard]] double duration_s(const Cut& cut);
 [[nodiscard]] double duration_s(const Pattern& pattern);

@@ -1,22 +1,22 @@
-// synth/wind.h -- an analytic wind: the horizontal motion of the air at any point and time, in
-// closed form.
+// synth/wind.h -- defines an analytic wind: the horizontal motion of the air at any point and time,
+// in closed form.
 //
-// The wind is the sum of a wind that depends on height alone and of any number of vortices.
+// The wind is the sum of a wind that depends only on height, and of any number of vortices.
 //   levels   The wind is linear in height between levels, and constant below the lowest and above
-//            the highest. One level is a uniform wind, two are a linear shear, more are a
-//            hodograph. Without levels this part is 0.
+//            the highest level. One level is a uniform wind, two are a linear shear, and more are a
+//            hodograph. Without levels, this part is 0.
 //   vortex   At the distance r from the center, the wind around the center is tangential f(r), and
-//            the wind away from the center is radial f(r), with f = r / radius up to the radius of
-//            the greatest wind, and f = (radius / r)^decay beyond. Within the radius the vorticity
-//            is 2 tangential / radius and the divergence 2 radial / radius. A decay of 1 is the
-//            Rankine vortex, with neither beyond the radius. Hurricanes have decays of 0.4 to 0.6.
-//            With tangential 0, the vortex is a center of divergence; with both, a hurricane with
-//            inflow.
+//            the wind away from the center is radial f(r). f = r / radius up to the radius of the
+//            greatest wind, and f = (radius / r)^decay beyond. Within the radius, the vorticity is
+//            2 tangential / radius, and the divergence is 2 radial / radius. A decay of 1 is the
+//            Rankine vortex, which has neither beyond the radius. Hurricanes have decays of 0.4 to
+//            0.6. If tangential is 0, the vortex is a center of divergence; if neither is 0, it is
+//            a hurricane with inflow.
 //
 // Units     As in synth/plane.h; time in seconds since the start of the scene.
 // Source    The combined vortex of Rankine as in Donaldson (1970); decay as in Hughes (1952).
 // Accuracy  The formulas in double: 1e-12 m/s at the points of tests/synth/wind_test.cpp. The wind
-//           is continuous except at the base and the top of a vortex, and at levels of equal
+//           is continuous, except at the base and the top of a vortex and at levels of equal
 //           height.
 // Errors    None. A vortex without a positive radius is calm.
 // Threads   Plain data and pure functions.
@@ -36,7 +36,7 @@ struct WindLevel {
     Motion wind = {};
 };
 
-// An upright column of air around a center, which drifts over the plane.
+// An upright column of air around a center that drifts over the plane.
 struct Vortex {
     double x_m = 0;  // the center at t = 0
     double y_m = 0;

@@ -17,7 +17,7 @@ class Work {
          const WriteSceneOptions& options)
         : scene_(scene), directory_(directory), file_system_(file_system), options_(options) {}
 
-    // Does nothing once one volume has failed or the caller has asked to stop.
+    // Does nothing if a volume has failed or the caller has asked to stop.
     void run(int number) {
         if (stopped() || failed_) return;
         const auto path = directory_ / volume_file_name(scene_, number);

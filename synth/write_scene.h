@@ -15,20 +15,20 @@
 namespace stormcellar::synth {
 
 struct WriteSceneOptions {
-    int threads = 1;  // volumes that are observed and written at the same time
+    int threads = 1;                          // volumes that are observed and written at once
     const std::atomic<bool>* stop = nullptr;  // when set, no further volume is begun
-    // Called after each volume, by one thread at a time.
+    // Called after each volume, by only one thread at a time.
     std::function<void(const std::filesystem::path& file)> written;
 };
 
 struct WrittenScene {
-    std::vector<std::filesystem::path> files;  // in order of time; all of them unless stopped
+    std::vector<std::filesystem::path> files;  // in order of time; all of them, unless stopped
     std::uint64_t bytes = 0;
     bool stopped = false;
 };
 
 // Writes every volume into `directory`, which is made if it does not exist. Files with the same
-// name are replaced. Each file appears whole or not at all. The bytes are the same every time, for
+// name are replaced, and each file appears whole or not at all. The bytes are always the same, for
 // any number of threads. The first error ends the work; files written before it stay.
 [[nodiscard]] Result<WrittenScene> write_scene(const Scene& scene,
                                                const std::filesystem::path& directory,
