@@ -1,8 +1,8 @@
 // bench_feed: plays the heaviest national hour of Level II to the real stormcellard.
 //
 // usage: bench_feed [--data DIR] [--work DIR] [--as growing|open|whole|chunks] [--speeds "1 16"]
-//        [--seconds N] [--sites N] [--full] [--soak-hours N] [--threads N] [--json]
-//        (bench/request.h)
+//        [--seconds N] [--sites N] [--moments "REF VELD"] [--full] [--soak-hours N] [--threads N]
+//        [--json] (bench/request.h)
 // A national feed (bench/national_feed.h) is made once, untimed, below --work. For each speed, the
 // stormcellard of this build starts there with its own directories, and grids every volume at 1 km
 // and 32 levels. Chunks that sites sent before the feed's clock began exist from the start. There
@@ -11,7 +11,8 @@
 //   sustained_x    hours of the feed, or of its first --sites, that the daemon processes in an hour
 //                  (bench/feed_run.h)
 //   raw_mb_per_s   10^6 bytes of messages a second of wall time
-//   latency_*      time from the last chunk of a volume to its grid
+//   latency_*      time from the last chunk of a volume to its grid; with --moments, to the grid of
+//                  the last moment
 //   bzip2_share    CPU time of bunzip alone for the same bytes, timed before and after each row,
 //                  divided by the daemon's CPU time
 //   peak_mib       peak resident memory of the daemon (VmHWM). At most file_mib of it is page cache
@@ -21,6 +22,7 @@
 //   ungridded      number of these volumes that have no grid at the end
 //   held           share of the time during which the feed was paused
 //   cache_mib      largest size of the cache
+// --moments: the moments to grid, REF first, instead of REF alone. For VELD, the daemon dealiases.
 // --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
 // sites over N hours of the feed's clock, as fast as the daemon can read them. Files, rows and
 // grids must agree at the end. --full: plays the whole hour at speed 1, and then 24 hours as for
@@ -55,8 +57,15 @@ constexpr int soak_sites = 16, soak_hours = 24;
 constexpr std::uint64_t cache_budget = std::uint64_t{2} << 30U;
 
 constexpr const char* daemon_configuration =
-    "[cache]\nbytes = \"2 GiB\"\n[ingest]\nspacing_km = 1.0\nextent_km = [460, 460]\n"
-    "levels_km = \"0.5:16:0.5\"\n[log]\nlevel = \"warning\"\n";
+    "[cache]\nbytes = \"2 GiB\"\n[log]\nlevel = \"warning\"\n[ingest]\nspacing_km = 1.0\n"
+    "extent_km = [460, 460]\nlevels_km = \"0.5:16:0.5\"\n";
+
+std::string configuration_for(const std::vector<level2::Moment>& moments) {
+    std::string names;
+    for (const level2::Moment moment : moments)
+        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", level2::moment_name(moment));
+    return fmt::format("{}moments = [{}]\n", daemon_configuration, names);
+}
 
 // Measures the CPU time of bunzip alone for the bytes of the feed.
 class BzipCost {
@@ -103,6 +112,7 @@ struct Wanted {
     bool full = false;
     int sites = national_sites;
     std::vector<double> speeds;
+    std::vector<level2::Moment> moments;
     double paced_s = default_paced_s, fast_s = default_fast_s;
 };
 
@@ -142,12 +152,13 @@ void add_row(const Wanted& wanted, double speed, const Stretch& stretch, double 
 
 // Plays the feed once to a new daemon, and calls `check` after the daemon has ended. If anything
 // fails, the directories of the daemon are kept.
-Status play(const NationalFeed& feed, const Wanted& wanted, const StretchOptions& options,
+Status play(const NationalFeed& feed, const Wanted& wanted, StretchOptions options,
             const std::function<Status(const Stretch&, const DaemonProcess&)>& check) {
     const fs::path root = wanted.work / fmt::format("run-{}", ::getpid());
     DaemonProcess daemon(root);
     FeedRun run(feed, daemon);
-    const auto stretch = run.run(options, daemon_configuration);
+    options.last_moment = wanted.moments.back();
+    const auto stretch = run.run(options, configuration_for(wanted.moments));
     if (!stretch) return pass_on(stretch);
     if (!daemon.stop())
         return fail(ErrorCode::internal, "the end was not clean: {}", root.native());
@@ -246,6 +257,15 @@ std::optional<Wanted> wanted_of(const Request& request) {
     std::istringstream speeds(request.value("--speeds").value_or("1 16"));
     for (double speed = 0; speeds >> speed;)
         wanted.speeds.push_back(speed);
+    std::istringstream moments(
+        request.value("--moments").value_or(std::string(level2::moment_name(level2::Moment::ref))));
+    for (std::string name; moments >> name;) {
+        const auto moment = level2::moment_from_name(name);
+        if (!moment) return std::nullopt;
+        wanted.moments.push_back(*moment);
+    }
+    if (wanted.moments.empty() || wanted.moments.front() != level2::Moment::ref)
+        return std::nullopt;
     const bool possible = std::all_of(wanted.speeds.begin(), wanted.speeds.end(),
                                       [](double speed) { return speed > 0 && speed <= 1000; });
     if (!possible || wanted.speeds.empty() || !speeds.eof()) return std::nullopt;
@@ -261,16 +281,17 @@ int run(int argc, char** argv) {
         {"bench_feed",
          "",
          "the heaviest national hour before stormcellard: speed, latency, memory, bzip2's share.\n"
-         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each",
+         "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each,\n"
+         "--moments \"NAME ...\"",
          {"--full"},
-         {"--work", "--as", "--speeds", "--seconds", "--sites", "--soak-hours"}},
+         {"--work", "--as", "--speeds", "--seconds", "--sites", "--moments", "--soak-hours"}},
         std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;
     const auto wanted = wanted_of(*request);
     if (!wanted) {
         fmt::print(stderr,
                    "bench_feed: usage: --as growing|open|whole|chunks, --speeds \"1 16\", "
-                   "--seconds N\n");
+                   "--seconds N, --moments \"NAME ...\"\n");
         return 2;
     }
     Table table(request->json);

@@ -32,13 +32,13 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 }  // namespace
 
-Status FeedRun::watch() {
+Status FeedRun::watch(level2::Moment moment) {
     std::vector<std::string> stations, days;
     for (const NationalSite& site : feed_.sites())
         stations.emplace_back(site.station.icao);
     for (int day = -1; day <= 1; ++day)
         days.push_back(cache::day_name(national_start() + std::chrono::days{day}));
-    return watch_.watch(daemon_.cache(), stations, days);
+    return watch_.watch(daemon_.cache(), stations, days, moment);
 }
 
 void FeedRun::note_grids() {
@@ -148,8 +148,8 @@ Result<Stretch> FeedRun::run(const StretchOptions& options, const std::string& c
                              const std::function<Status()>& begin) {
     std::error_code failed;
     fs::create_directories(daemon_.drop(), failed);
-    if (Status watched = watch(); !watched) return pass_on(watched);
-    volumes_ = feed_.volumes(options.most_feed_s);
+    if (Status watched = watch(options.last_moment); !watched) return pass_on(watched);
+    volumes_ = feed_.volumes(options.most_feed_s, options.last_moment);
     for (const NationalVolume& volume : volumes_)
         items_.push_back(feed_.item_of(volume));
     auto targets = synth::targets_of(items_, options.delivery);

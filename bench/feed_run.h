@@ -39,6 +39,7 @@ struct StretchOptions {
     double most_feed_s = 3600;
     std::size_t most_unfinished = 8;
     double most_drain_s = 100;
+    level2::Moment last_moment = level2::Moment::ref;  // the last of the configuration's moments
 };
 
 struct MemorySample {
@@ -83,7 +84,7 @@ class FeedRun {
         double latency_s = -1;  // below 0: there is no grid
         std::size_t volume = 0;
     };
-    [[nodiscard]] Status watch();
+    [[nodiscard]] Status watch(level2::Moment moment);
     [[nodiscard]] Status start(const StretchOptions& options, const std::string& configuration);
     [[nodiscard]] bool wait_until_idle(double most_s);
     void end_volume(std::size_t volume, const StretchOptions& options);

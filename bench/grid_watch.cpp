@@ -9,8 +9,6 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-#include "stormcellar/level2/moment.h"
-
 namespace stormcellar::bench {
 
 namespace fs = std::filesystem;
@@ -20,12 +18,11 @@ GridWatch::~GridWatch() {
 }
 
 Status GridWatch::watch(const fs::path& cache, std::span<const std::string> stations,
-                        std::span<const std::string> days) {
+                        std::span<const std::string> days, level2::Moment moment) {
     descriptor_ = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     for (const std::string& station : stations) {
         for (const std::string& day : days) {
-            const fs::path directory =
-                cache / station / level2::moment_name(level2::Moment::ref) / day;
+            const fs::path directory = cache / station / level2::moment_name(moment) / day;
             std::error_code problem;
             fs::create_directories(directory, problem);
             if (::inotify_add_watch(descriptor_, directory.c_str(), IN_MOVED_TO) < 0) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stormcellar/base/result.h"
+#include "stormcellar/level2/moment.h"
 
 namespace stormcellar::bench {
 
@@ -21,10 +22,12 @@ class GridWatch {
     GridWatch& operator=(const GridWatch&) = delete;
     ~GridWatch();
 
-    // Makes and watches CACHE/STATION/REF/DAY for each station and day, so that no grid is missed.
+    // Makes and watches CACHE/STATION/MOMENT/DAY for each station and day, so that no grid is
+    // missed.
     [[nodiscard]] Status watch(const std::filesystem::path& cache,
                                std::span<const std::string> stations,
-                               std::span<const std::string> days);
+                               std::span<const std::string> days,
+                               level2::Moment moment = level2::Moment::ref);
     // Calls `appeared` with the name of each file that was renamed into place since the last call.
     void read(const std::function<void(std::string_view)>& appeared) const;
     // Waits at most `seconds` until a file appears.

@@ -157,13 +157,13 @@ UtcTime NationalFeed::start_of(const NationalSite& site, int volume) const {
     return national_start() + std::chrono::milliseconds{std::llround(1000 * seconds)};
 }
 
-std::vector<NationalVolume> NationalFeed::volumes(double until_s) const {
+std::vector<NationalVolume> NationalFeed::volumes(double until_s, level2::Moment moment) const {
     std::vector<NationalVolume> volumes;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
         const NationalSite& site = sites_[i];
         for (int number = 0; site.first_start_s + number * period_s_ < until_s; ++number) {
             const UtcTime start = start_of(site, number);
-            const cache::GridName grid{std::string(site.station.icao), level2::Moment::ref, start};
+            const cache::GridName grid{std::string(site.station.icao), moment, start};
             volumes.push_back({i, number, start, cache::relative_path(grid).filename()});
         }
     }

@@ -25,6 +25,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/moment.h"
 #include "synth/replay.h"
 
 namespace stormcellar::bench {
@@ -46,7 +47,7 @@ struct NationalVolume {
     std::size_t site = 0;
     int number = 0;  // number among the site's volumes, from 0
     UtcTime start;
-    std::string grid;  // the name of its grid's file
+    std::string grid;  // the name of the file of its grid of the given moment
 };
 
 class NationalFeed {
@@ -71,7 +72,8 @@ class NationalFeed {
     [[nodiscard]] UtcTime start_of(const NationalSite& site, int volume) const;
     // volumes() returns the volumes that begin before `until_s` on the feed's clock, in the order
     // of a replay. item_of() returns the item that replays a volume.
-    [[nodiscard]] std::vector<NationalVolume> volumes(double until_s) const;
+    [[nodiscard]] std::vector<NationalVolume> volumes(
+        double until_s, level2::Moment moment = level2::Moment::ref) const;
     [[nodiscard]] synth::ReplayItem item_of(const NationalVolume& volume) const;
 
   private:
