@@ -45,6 +45,11 @@ class ShelfDepot final : public level2::SweepDepot {
     std::vector<SweepShelf::Place> places_;
 };
 
+// Returns the key of a sweep in ShelvedVolume.
+std::size_t cut_of(const level2::Sweep& sweep) {
+    return static_cast<std::size_t>(std::max(0, sweep.elevation_number));
+}
+
 // Returns null if there is no room for a shelf.
 std::unique_ptr<ShelvedVolume> kept_volume_in(const fs::path& directory) {
     auto shelf = SweepShelf::make_in(directory);
@@ -193,7 +198,7 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     if (!kept_) return;
     const auto place = kept_->shelf->put(sweep);
     if (!place) return;
-    const auto cut = static_cast<std::size_t>(std::max(0, sweep.elevation_number));
+    const std::size_t cut = cut_of(sweep);
     const MomentSet moments = moments_in(sweep, moments_);
     kept_->places.insert_or_assign(cut, *place);
     radial_counts_.insert_or_assign(cut, sweep.radials.size());
@@ -203,6 +208,12 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     }
     kept_->sweeps.insert_or_assign(cut, ShelvedVolume::Kept{moments, sweep.mean_elevation_deg()});
     if (moments.any()) news_.add(moments, kept_->is_lowest(sweep.mean_elevation_deg()));
+}
+
+void ChunkVolume::keep_dealiased(const level2::Volume& dealiased) {
+    if (!kept_) return;
+    for (const level2::Sweep& sweep : dealiased.sweeps)
+        kept_->keep_dealiased(cut_of(sweep), sweep);
 }
 
 void ChunkVolume::shelve_new_sweeps() {
@@ -230,10 +241,7 @@ Result<level2::Decoded> ChunkVolume::finish() {
     kept_->facts = decoded->volume;
     kept_->facts.sweeps.clear();
     for (const level2::Sweep& sweep : decoded->volume.sweeps) {
-        if (!kept_->places.contains(
-                static_cast<std::size_t>(std::max(0, sweep.elevation_number)))) {
-            shelve(sweep);
-        }
+        if (!kept_->places.contains(cut_of(sweep))) shelve(sweep);
     }
     return decoded;
 }

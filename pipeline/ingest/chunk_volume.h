@@ -95,6 +95,8 @@ class ChunkVolume {
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
     [[nodiscard]] Result<level2::Decoded> finish();
+    // Keeps the VELD of the complete volume, which finish() returned, with its sweeps.
+    void keep_dealiased(const level2::Volume& dealiased);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:

@@ -88,6 +88,8 @@ Result<IngestOutcome> finish_chunks(IngestContext& context, ChunkVolume& volume,
     if (Status seen = context.catalog.register_files(taken_station, as_seen(others)); !seen)
         return pass_on(seen);
     TakeVolumes volumes(context, std::move(facts), std::move(outcome));
+    volumes.set_use_dealiased(
+        [&](const level2::Volume& dealiased) { volume.keep_dealiased(dealiased); });
     auto taken = volumes.take(std::move(*decoded), MayBePartial::yes);
     if (!taken) return taken;
     if (Status settled = settle_others(); !settled) return pass_on(settled);

@@ -25,8 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t stretch_bytes = std::size_t{256} << 10;
-constexpr double same_elevation_deg = 0.2;
-constexpr std::chrono::minutes longest_standing{20};
 constexpr std::uint64_t most_records = 10'000;
 // A longer last record is not examined. The largest known record has half a megabyte, and five
 // megabytes unpacked.
@@ -121,6 +119,16 @@ bool ShelvedVolume::is_lowest(double elevation_deg) const {
         return entry.second.moments.any() &&
                entry.second.elevation_deg < elevation_deg - same_elevation_deg;
     });
+}
+
+// Ignores a lack of space, because the next volume's living grids can dealias the sweep again.
+void ShelvedVolume::keep_dealiased(SweepKey key, const level2::Sweep& sweep) {
+    const auto kept = sweeps.find(key);
+    const auto place = places.find(key);
+    if (kept == sweeps.end() || place == places.end()) return;
+    const bool is_same = kept->second.elevation_deg == sweep.mean_elevation_deg();
+    if (!is_same || sweep.find(level2::Moment::veld) == nullptr) return;
+    (void)dealiased.keep(*shelf, key, place->second, sweep);
 }
 
 std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
@@ -291,57 +299,9 @@ Result<level2::Decoded> FollowedFile::finish() {
     return decoded;
 }
 
-Status LivingSweeps::add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
-                         bool stands) {
-    if (moments.none()) return {};
-    auto sweep = from.shelf->get(from.places.at(key));
-    if (!sweep) return pass_on(sweep);
-    sweeps_.push_back({std::move(*sweep), moments, stands});
-    return {};
-}
-
-Result<LivingSweeps> LivingSweeps::read(const ShelvedVolume& growing, const ShelvedVolume* last,
-                                        MomentSet moments) {
-    LivingSweeps read;
-    read.volume_ = growing.facts;
-    // Returns the moments for which a new sweep near this elevation has come.
-    const auto come_again = [&growing](double elevation_deg) {
-        MomentSet come;
-        for (const auto& [key, kept] : growing.sweeps) {
-            if (std::abs(kept.elevation_deg - elevation_deg) < same_elevation_deg)
-                come |= kept.moments;
-        }
-        return come;
-    };
-    const auto start = growing.facts.start_time();
-    const auto last_start = last == nullptr ? std::nullopt : last->facts.start_time();
-    if (start && last_start && *start > *last_start && *start - *last_start <= longest_standing) {
-        for (const auto& [key, kept] : last->sweeps) {
-            const MomentSet stand = kept.moments & moments & ~come_again(kept.elevation_deg);
-            if (Status added = read.add(*last, key, stand, true); !added) return pass_on(added);
-        }
-    }
-    for (const auto& [key, kept] : growing.sweeps) {
-        const MomentSet counts = kept.moments & moments;
-        if (Status added = read.add(growing, key, counts, false); !added) return pass_on(added);
-    }
-    return read;
-}
-
-const level2::Volume& LivingSweeps::volume_of(level2::Moment moment) {
-    for (std::size_t i = 0; i < lent_.size(); ++i)
-        sweeps_[lent_[i]].sweep = std::move(volume_.sweeps[i]);
-    lent_.clear();
-    volume_.sweeps.clear();
-    standing_ = 0;
-    for (std::size_t i = 0; i < sweeps_.size(); ++i) {
-        One& one = sweeps_[i];
-        if (!one.moments.test(static_cast<std::size_t>(moment))) continue;
-        volume_.sweeps.push_back(std::move(one.sweep));
-        lent_.push_back(i);
-        if (one.stands) ++standing_;
-    }
-    return volume_;
+void FollowedFile::keep_dealiased(const level2::Volume& dealiased) {
+    for (std::size_t index = 0; index < dealiased.sweeps.size(); ++index)
+        kept_->keep_dealiased(index, dealiased.sweeps[index]);
 }
 
 }  // namespace stormcellar::pipeline

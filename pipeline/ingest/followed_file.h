@@ -22,6 +22,7 @@
 
 #include "base/checksum.h"
 #include "pipeline/ingest/growing_set.h"
+#include "pipeline/keep/dealiased_sweeps.h"
 #include "pipeline/keep/sweep_shelf.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/growing_volume.h"
@@ -32,6 +33,9 @@ using MomentSet = std::bitset<level2::moment_count>;
 // Returns the given moments that the sweep has.
 [[nodiscard]] MomentSet moments_in(const level2::Sweep& sweep,
                                    const std::vector<level2::Moment>& moments);
+
+// Sweeps whose mean elevations differ by less are of one elevation.
+inline constexpr double same_elevation_deg = 0.2;
 
 // The sweeps of a volume, on a shelf on disk. Once the volume has ended, they no longer change.
 struct ShelvedVolume {
@@ -48,7 +52,11 @@ struct ShelvedVolume {
         double elevation_deg = 0;  // mean of its radials
     };
     std::map<SweepKey, Kept> sweeps;
+    // The velocities of these sweeps, dealiased for living grids, or with the final grid.
+    mutable DealiasedSweeps dealiased;
 
+    // Keeps the VELD of the sweep with this key, if it is the sweep on the shelf.
+    void keep_dealiased(SweepKey key, const level2::Sweep& sweep);
     // Returns true if no sweep with a gridded moment is lower than `elevation_deg`. This holds for
     // the lowest cut and its repetitions.
     [[nodiscard]] bool is_lowest(double elevation_deg) const;
@@ -118,7 +126,9 @@ class FollowedFile {
     }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // Returns the sweeps, which are kept for the site's next volume. Call it after finish().
+    // Keeps the VELD of the complete volume, which finish() returned, with its sweeps.
+    void keep_dealiased(const level2::Volume& dealiased);
+    // Returns the sweeps, to keep them for the site's next volume. Call it after finish().
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
   private:
@@ -140,39 +150,6 @@ class FollowedFile {
     std::optional<UtcTime> newest_;
     UnshownSweeps news_;
     bool is_whole_ = true;
-};
-
-// The sweeps for the living grids of a growing volume. They are unpacked once for all moments.
-class LivingSweeps {
-  public:
-    // Reads the sweeps of the growing volume that have one of these moments. Also reads those
-    // sweeps of the site's last volume (null: none) that the growing volume has not replaced yet.
-    // The volumes need not outlive the object. Errors: those of the shelf.
-    [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
-                                                   const ShelvedVolume* last, MomentSet moments);
-
-    // Returns a volume with all sweeps that show the moment now. First come sweeps of the last
-    // volume that have the moment and whose elevation has not come again (within 0.2 degrees); then
-    // the growing volume's sweeps that have the moment. Only sweeps with the moment count, so an
-    // old Doppler sweep stays until a new Doppler sweep has come. If the last volume is more than
-    // 20 minutes older, its sweeps are left out. The result is valid until the next call.
-    [[nodiscard]] const level2::Volume& volume_of(level2::Moment moment);
-    // Returns how many sweeps in the last result of volume_of() are from the site's last volume.
-    [[nodiscard]] std::size_t standing() const { return standing_; }
-
-  private:
-    struct One {
-        level2::Sweep sweep;
-        MomentSet moments;    // moments that this sweep shows
-        bool stands = false;  // the sweep is from the last volume
-    };
-    Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
-               bool stands);
-
-    std::vector<One> sweeps_;        // in the order of the volume
-    std::vector<std::size_t> lent_;  // indices of the sweeps that are in volume_ now
-    level2::Volume volume_;
-    std::size_t standing_ = 0;
 };
 
 }  // namespace stormcellar::pipeline

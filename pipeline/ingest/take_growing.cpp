@@ -97,8 +97,10 @@ Result<IngestOutcome> TakeGrowing::finish(std::chrono::steady_clock::time_point 
     outcome_.decode_s = seconds_since(start);
     if (!decoded) return take_whole();
     const auto partial = file_.may_be_partial() ? MayBePartial::yes : MayBePartial::no;
-    auto taken = TakeVolumes(context_, std::move(facts_), std::move(outcome_))
-                     .take(std::move(*decoded), partial);
+    TakeVolumes volumes(context_, std::move(facts_), std::move(outcome_));
+    volumes.set_use_dealiased(
+        [&](const level2::Volume& dealiased) { followed_->keep_dealiased(dealiased); });
+    auto taken = volumes.take(std::move(*decoded), partial);
     if (taken && !taken->station.empty()) context_.living->keep_last(followed_->take_kept());
     return taken;
 }

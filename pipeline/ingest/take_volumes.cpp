@@ -45,6 +45,7 @@ constexpr std::string_view lone_chunk_text =
 Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial partial) {
     note(decoded);
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    if (volumes.size() != 1) use_dealiased_ = nullptr;
     if (volumes.size() > most_volumes) {
         return reject(ErrorCode::unsupported,
                       fmt::format("holds {} volumes, more than the {} that a raw file may hold",
@@ -174,8 +175,8 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
     if (!rival) return pass_on(rival);
     const GridSource source{facts_.path.filename().string(), is_partial(volume), *rival,
                             troubles_of(volume.station)};
-    return context_.site_grids->keep(volume, source,
-                                     context_.share_of(context_.options.grid_threads), outcome_);
+    return context_.site_grids->keep(
+        volume, source, context_.share_of(context_.options.grid_threads), outcome_, use_dealiased_);
 }
 
 // Makes partials and frames. If a domain cannot use the volume, does not reject the file, because

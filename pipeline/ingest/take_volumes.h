@@ -5,6 +5,7 @@
 // outlive it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ class TakeVolumes {
     TakeVolumes(IngestContext& context, catalog::FileFacts facts, IngestOutcome outcome)
         : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
 
+    // Lets take() call `use` with the velocities of the volume and their VELD, if the file has one
+    // volume and that was made.
+    void set_use_dealiased(std::function<void(const level2::Volume&)> use) {
+        use_dealiased_ = std::move(use);
+    }
     // Takes the volumes. A file with more than 64 volumes is rejected. Errors: those of
     // Ingestor::ingest().
     Result<IngestOutcome> take(level2::Decoded decoded, MayBePartial partial);
@@ -50,6 +56,7 @@ class TakeVolumes {
     catalog::FileFacts facts_;
     IngestOutcome outcome_;
     Reading reading_;
+    std::function<void(const level2::Volume&)> use_dealiased_;
 };
 
 }  // namespace stormcellar::pipeline

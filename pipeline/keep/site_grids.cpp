@@ -40,6 +40,10 @@ tl::unexpected<Error> of_storing(Error error) {
     return tl::unexpected<Error>(std::move(error));
 }
 
+void note_not_derived(level2::Moment moment, const Error& why, IngestOutcome& outcome) {
+    outcome.reason = fmt::format("no grid of {}: {}", level2::moment_name(moment), why.message);
+}
+
 void note_no_room(IngestOutcome& outcome, const Error& why) {
     ++outcome.not_kept;
     outcome.no_room = true;
@@ -112,47 +116,66 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
 // Grids the moments one by one. If the cache does not keep the grid of one moment, goes on with the
 // others.
 Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
-                       IngestOutcome& outcome) {
+                       IngestOutcome& outcome,
+                       const std::function<void(const level2::Volume&)>& use_dealiased) {
     if (!has_place(volume, outcome)) return {};
+    std::optional<level2::Volume> dealiased;
     for (const level2::Moment moment : options_.moments) {
         if (!level2::holds(volume, level2::measured_moment(moment))) continue;
-        if (Status kept = keep_moment(volume, moment, source, threads, outcome); !kept) return kept;
+        Status kept = keep_moment(volume, moment, source, threads, dealiased, outcome);
+        if (!kept) return kept;
     }
+    if (use_dealiased && dealiased) use_dealiased(*dealiased);
     return {};
 }
 
-// Returns the volume. For a derived moment, returns its copy in `derived`, which has that moment.
-// If the moment cannot be derived from this volume, leaves a remark in the outcome, because the
-// other moments are still good.
+// Returns the volume. For a moment that comes from velocities, returns `dealiased`, a copy of the
+// volume with VELD, which is made for the first such moment, and with the moment. For POW, returns
+// `judged`, a copy with POW. If the moment cannot be derived from this volume, leaves a remark in
+// the outcome, because the other moments are still good.
 Result<SiteGrids::UsedVolume> SiteGrids::used_volume(const level2::Volume& measured,
                                                      level2::Moment moment,
                                                      const GridSource& source,
-                                                     std::optional<level2::Volume>& derived,
+                                                     std::optional<level2::Volume>& dealiased,
+                                                     std::optional<level2::Volume>& judged,
                                                      IngestOutcome& outcome) const {
     UsedVolume used{&measured, source};
     if (!level2::facts_of(moment).is_derived) return used;
-    auto made = retrieve::derived_velocities(measured, std::array{moment}, options_.derived);
-    if (!made && made.error().code == ErrorCode::not_found) {
-        outcome.reason =
-            fmt::format("no grid of {}: {}", level2::moment_name(moment), made.error().message);
+    const auto give_up = [&](const Error& why) -> Result<UsedVolume> {
+        if (why.code != ErrorCode::not_found) return tl::unexpected<Error>(why);
+        note_not_derived(moment, why, outcome);
         return UsedVolume{};
+    };
+    if (!level2::is_dealiased(moment)) {
+        auto made = retrieve::derived_velocities(measured, std::array{moment}, options_.derived);
+        if (!made) return give_up(made.error());
+        judged = std::move(made->volume);
+        used.volume = &*judged;
+        return used;
     }
-    if (!made) return pass_on(made);
-    derived = std::move(made->volume);
-    used.volume = &*derived;
-    used.source.notes.insert(used.source.notes.end(), made->notes.begin(), made->notes.end());
+    if (!dealiased) {
+        auto made = retrieve::derived_velocities(measured, std::array{level2::Moment::veld},
+                                                 options_.derived);
+        if (!made) return give_up(made.error());
+        dealiased = std::move(made->volume);
+    }
+    used.volume = &*dealiased;
+    const auto notes = retrieve::add_from_dealiased(*dealiased, moment, options_.derived);
+    if (!notes) return give_up(notes.error());
+    used.source.notes.insert(used.source.notes.end(), notes->begin(), notes->end());
     return used;
 }
 
 Status SiteGrids::keep_moment(const level2::Volume& measured, level2::Moment moment,
-                              const GridSource& source, int threads, IngestOutcome& outcome) {
+                              const GridSource& source, int threads,
+                              std::optional<level2::Volume>& dealiased, IngestOutcome& outcome) {
     if (!store_.would_keep(measured.station, moment, measured.start_time().value_or(UtcTime{}))) {
         note_not_kept(measured.station, outcome);
         return {};
     }
     const auto start = Clock::now();
-    std::optional<level2::Volume> derived;
-    const auto used = used_volume(measured, moment, source, derived, outcome);
+    std::optional<level2::Volume> judged;
+    const auto used = used_volume(measured, moment, source, dealiased, judged, outcome);
     if (!used) return pass_on(used);
     if (used->volume == nullptr) return {};
     const level2::Volume& volume = *used->volume;
@@ -180,20 +203,15 @@ Status SiteGrids::keep_moment(const level2::Volume& measured, level2::Moment mom
     return {};
 }
 
-Status SiteGrids::keep_living(const level2::Volume& measured, level2::Moment moment,
+Status SiteGrids::keep_living(const level2::Volume& volume, level2::Moment moment,
                               const GridSource& source, int threads, IngestOutcome& outcome) {
-    const bool has_place = level2::antenna_position(measured) && !measured.station.empty();
+    const bool has_place = level2::antenna_position(volume) && !volume.station.empty();
     if (!has_place ||
-        !store_.would_keep(measured.station, moment, measured.start_time().value_or(UtcTime{}))) {
+        !store_.would_keep(volume.station, moment, volume.start_time().value_or(UtcTime{}))) {
         return {};
     }
     const auto start = Clock::now();
-    std::optional<level2::Volume> derived;
-    const auto used = used_volume(measured, moment, source, derived, outcome);
-    if (!used) return pass_on(used);
-    if (used->volume == nullptr) return {};
-    const level2::Volume& volume = *used->volume;
-    auto made = make(volume, moment, used->source, threads);
+    auto made = make(volume, moment, source, threads);
     if (!made) return pass_on(made);
     outcome.grid_s += seconds_since(start);
     const auto commit_start = Clock::now();

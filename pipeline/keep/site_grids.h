@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,12 +45,14 @@ class SiteGrids {
     // keep it; the outcome says so. The outcome also says why a moment cannot be derived, for
     // example SRV if the wind profile is too short. Adds to the outcome the times, and the paths of
     // the grids, including better grids that stay.
+    // Calls `use_dealiased`, if given, with the volume's velocities and their VELD, if it was made.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
-                IngestOutcome& outcome);
+                IngestOutcome& outcome,
+                const std::function<void(const level2::Volume&)>& use_dealiased = {});
     // Grids one moment of a growing volume and commits the grid, like keep(). Neither audits nor
     // syncs the grid, because it is replaced in seconds and made again after a crash. Adds the path
     // to the outcome's `living`.
-    Status keep_living(const level2::Volume& measured, level2::Moment moment,
+    Status keep_living(const level2::Volume& volume, level2::Moment moment,
                        const GridSource& source, int threads, IngestOutcome& outcome);
 
   private:
@@ -64,10 +67,12 @@ class SiteGrids {
     };
     [[nodiscard]] Result<UsedVolume> used_volume(const level2::Volume& measured,
                                                  level2::Moment moment, const GridSource& source,
-                                                 std::optional<level2::Volume>& derived,
+                                                 std::optional<level2::Volume>& dealiased,
+                                                 std::optional<level2::Volume>& judged,
                                                  IngestOutcome& outcome) const;
     Status keep_moment(const level2::Volume& measured, level2::Moment moment,
-                       const GridSource& source, int threads, IngestOutcome& outcome);
+                       const GridSource& source, int threads,
+                       std::optional<level2::Volume>& dealiased, IngestOutcome& outcome);
     Result<Made> make(const level2::Volume& volume, level2::Moment moment, const GridSource& source,
                       int threads);
     enum class Living { no, yes };
@@ -89,6 +94,8 @@ class SiteGrids {
 [[nodiscard]] tl::unexpected<Error> of_gridding(Error error);
 // Sets the cause of an error of writing into the cache. The cause is never the file.
 [[nodiscard]] tl::unexpected<Error> of_storing(Error error);
+// Notes that a derived moment cannot be made.
+void note_not_derived(level2::Moment moment, const Error& why, IngestOutcome& outcome);
 // Notes that the cache's budgets leave no room for a grid, so that an operator must change them.
 // The file is not tried again until a restart looks for missing grids.
 void note_no_room(IngestOutcome& outcome, const Error& why);

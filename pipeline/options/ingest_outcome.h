@@ -94,6 +94,7 @@ struct IngestOutcome {
     // State of the file's volume, if it grows or grew.
     bool goes_on = false;  // the volume is followed, and one of its sweeps is complete
     std::vector<std::filesystem::path> living;  // grids of volumes that have not ended
+    int dealiased_sweeps = 0;                   // dealiased for living grids
     bool living_left_out = false;               // there was no time for living grids
     // Numbers of the chunks that a finished volume lacks.
     std::vector<int> missing_chunks;

@@ -41,10 +41,9 @@ Motion rounded(const Motion& motion) {
     return parse_motion(format_motion(motion)).value_or(motion);
 }
 
-Result<ChosenMotion> chosen_motion(const level2::Volume& volume, const Dealiased& dealiased,
-                                   const MotionChoice& choice) {
+Result<ChosenMotion> chosen_motion(const level2::Volume& volume, const MotionChoice& choice) {
     if (choice.rule == MotionRule::given) return ChosenMotion{rounded(choice.motion), "as given"};
-    const auto layers = wind_profile(volume, dealiased);
+    const auto layers = wind_profile(volume, read_folds(volume));
     if (!layers) return pass_on(layers);
     const auto motions = bunkers_motions(*layers);
     if (!motions)
@@ -93,17 +92,10 @@ SweepMoment storm_relative_moment(const level2::Sweep& sweep, const SweepMoment&
 // Notes of mosaics begin with the station, as in "KTLX: storm motion 240/15, as given".
 constexpr std::string_view motion_words = "storm motion ";
 
-void remove_storm_relative(level2::Volume& volume) {
-    for (level2::Sweep& sweep : volume.sweeps)
-        std::erase_if(sweep.moments,
-                      [](const SweepMoment& kind) { return kind.moment == Moment::srv; });
-}
-
 // Adds SRV and returns the notes.
 Result<std::vector<std::string>> add_storm_relative(level2::Volume& volume,
-                                                    const Dealiased& dealiased,
                                                     const MotionChoice& choice) {
-    const auto storm = chosen_motion(volume, dealiased, choice);
+    const auto storm = chosen_motion(volume, choice);
     if (!storm) return pass_on(storm);
     for (level2::Sweep& sweep : volume.sweeps) {
         std::vector<SweepMoment> made;
@@ -180,7 +172,7 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
         derived.notes.push_back(
             fmt::format("{}{}", shear_words, dealiasing_name(derived.dealiased.rung)));
     if (std::ranges::find(wanted, Moment::srv) == wanted.end()) return derived;
-    auto notes = add_storm_relative(volume, derived.dealiased, options.motion);
+    auto notes = add_storm_relative(volume, options.motion);
     if (!notes) return pass_on(notes);
     std::ranges::move(*notes, std::back_inserter(derived.notes));
     return derived;
@@ -192,10 +184,17 @@ bool must_derive(std::span<const Moment> wanted, const DerivedOptions& options) 
            });
 }
 
-Result<std::vector<std::string>> add_storm_relative_velocity(level2::Volume& volume,
-                                                             const MotionChoice& motion) {
-    remove_storm_relative(volume);
-    return add_storm_relative(volume, read_folds(volume), motion);
+Result<std::vector<std::string>> add_from_dealiased(level2::Volume& volume, Moment wanted,
+                                                    const DerivedOptions& options) {
+    if (wanted == Moment::veld) return std::vector<std::string>{};
+    for (level2::Sweep& sweep : volume.sweeps)
+        std::erase_if(sweep.moments,
+                      [&](const SweepMoment& kind) { return kind.moment == wanted; });
+    const Dealiased folds = read_folds(volume);
+    if (wanted == Moment::srv) return add_storm_relative(volume, folds, options.motion);
+    const auto shear = add_shear_moments(volume, folds, std::array{wanted});
+    if (!shear) return pass_on(shear);
+    return std::vector{fmt::format("{}{}", shear_words, dealiasing_name(options.dealiasing))};
 }
 
 Result<DerivedVolume> derived_velocities(const level2::Volume& volume,

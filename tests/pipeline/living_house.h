@@ -45,6 +45,19 @@ inline void date(const fs::path& path) {
     ASSERT_EQ(::utimensat(AT_FDCWD, path.c_str(), times.data(), 0), 0);
 }
 
+// Returns the volume with all times later by `by`.
+inline level2::Volume later(level2::Volume volume, std::chrono::milliseconds by) {
+    const UtcTime start = volume.header->time() + by;
+    const NexradTime named = nexrad_from_time(start);
+    volume.header->date = named.day;
+    volume.header->ms = named.milliseconds;
+    for (level2::Sweep& sweep : volume.sweeps) {
+        for (level2::Radial& radial : sweep.radials)
+            radial.time += by;
+    }
+    return volume;
+}
+
 struct House {
     explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {},
                    std::vector<level2::Moment> moments = {level2::Moment::ref}) {

@@ -23,19 +23,6 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Returns the volume with all times later by `by`.
-level2::Volume later(level2::Volume volume, std::chrono::milliseconds by) {
-    const UtcTime start = volume.header->time() + by;
-    const NexradTime named = nexrad_from_time(start);
-    volume.header->date = named.day;
-    volume.header->ms = named.milliseconds;
-    for (level2::Sweep& sweep : volume.sweeps) {
-        for (level2::Radial& radial : sweep.radials)
-            radial.time += by;
-    }
-    return volume;
-}
-
 TEST_F(Living, EverySweepIsShownAndTheEndIsThatOfTheWholeFile) {
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";

@@ -162,14 +162,14 @@ TEST(StormRelativeVelocity, ComesAlsoFromSweepsThatWereDealiasedBefore) {
         sweep = dealiased_sweep(sweep, Dealiasing::anchored, {});
     ASSERT_EQ(later.sweeps.front().moments.size(), 2U);
     const auto derived = add_derived_moments(at_once, srv_alone, given("right"));
-    const auto notes = add_storm_relative_velocity(later, given("right").motion);
+    const auto notes = add_from_dealiased(later, Moment::srv, given("right"));
     ASSERT_TRUE(derived && notes);
     EXPECT_EQ(*notes, derived->notes);
     for (std::size_t i = 0; i < later.sweeps.size(); ++i)
         EXPECT_EQ(later.sweeps[i].find(Moment::srv)->codes16,
                   at_once.sweeps[i].find(Moment::srv)->codes16);
     level2::Volume without = fold(quiet_air(15), in_uniform_wind({3, 4})).volume;
-    EXPECT_FALSE(add_storm_relative_velocity(without, given("right").motion))
+    EXPECT_FALSE(add_from_dealiased(without, Moment::srv, given("right")))
         << "without VELD there is no wind";
 }
 

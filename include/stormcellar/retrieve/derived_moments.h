@@ -96,10 +96,12 @@ struct DerivedVolume {
 [[nodiscard]] level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
                                             std::span<const level2::Sweep> known);
 
-// Adds SRV to a volume that has VELD, as add_derived_moments() does, and returns the notes. Errors:
-// not_found if the wind profile gives no motion.
-[[nodiscard]] Result<std::vector<std::string>> add_storm_relative_velocity(
-    level2::Volume& volume, const MotionChoice& motion);
+// Adds SRV, AZSH or DIVG to a volume that has VELD, as add_derived_moments() does, and returns the
+// notes. Does nothing for VELD. Errors: not_found if SRV is wanted and the wind profile gives no
+// motion.
+[[nodiscard]] Result<std::vector<std::string>> add_from_dealiased(level2::Volume& volume,
+                                                                  level2::Moment wanted,
+                                                                  const DerivedOptions& options);
 
 // Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
 // or if the sites of a mosaic have different motions.

@@ -1,0 +1,60 @@
+// pipeline/keep/dealiased_sweeps.h -- keeps the dealiased velocities of shelved sweeps, so that
+// each sweep is dealiased once while its volume grows. Used only inside the pipeline room.
+//
+// Threads   Many threads may use it. keep() must not run while another thread puts a received sweep
+//           on the same shelf.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "pipeline/keep/sweep_shelf.h"
+#include "stormcellar/base/mutex.h"
+
+namespace stormcellar::pipeline {
+
+class DealiasedSweeps {
+  public:
+    using Key = std::size_t;
+
+    // Returns the dealiased sweep of a received sweep; none if it is not kept, as after a late
+    // radial replaced the received sweep on the shelf. Errors: those of the shelf.
+    [[nodiscard]] std::optional<Result<level2::Sweep>> find(
+        const SweepShelf& shelf, Key key, const SweepShelf::Place& received) const {
+        SweepShelf::Place place;
+        {
+            const MutexLock lock(mutex_);
+            const auto kept = kept_.find(key);
+            if (kept == kept_.end() || kept->second.received != received.offset)
+                return std::nullopt;
+            place = kept->second.place;
+        }
+        return shelf.get(place);
+    }
+    [[nodiscard]] bool has(Key key, const SweepShelf::Place& received) const {
+        const MutexLock lock(mutex_);
+        const auto kept = kept_.find(key);
+        return kept != kept_.end() && kept->second.received == received.offset;
+    }
+    // Keeps a dealiased sweep in the place of any before. Errors: those of the shelf.
+    Status keep(SweepShelf& shelf, Key key, const SweepShelf::Place& received,
+                const level2::Sweep& dealiased) {
+        const MutexLock lock(mutex_);
+        const auto place = shelf.put(dealiased);
+        if (!place) return pass_on(place);
+        kept_.insert_or_assign(key, Kept{received.offset, *place});
+        return {};
+    }
+
+  private:
+    struct Kept {
+        std::uint64_t received = 0;  // offset of the received sweep
+        SweepShelf::Place place;
+    };
+    mutable Mutex mutex_;
+    std::map<Key, Kept> kept_ STORMCELLAR_GUARDED_BY(mutex_);
+};
+
+}  // namespace stormcellar::pipeline
