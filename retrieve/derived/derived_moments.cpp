@@ -190,9 +190,8 @@ Result<std::vector<std::string>> add_from_dealiased(level2::Volume& volume, Mome
     for (level2::Sweep& sweep : volume.sweeps)
         std::erase_if(sweep.moments,
                       [&](const SweepMoment& kind) { return kind.moment == wanted; });
-    const Dealiased folds = read_folds(volume);
-    if (wanted == Moment::srv) return add_storm_relative(volume, folds, options.motion);
-    const auto shear = add_shear_moments(volume, folds, std::array{wanted});
+    if (wanted == Moment::srv) return add_storm_relative(volume, options.motion);
+    const auto shear = add_shear_moments(volume, read_folds(volume), std::array{wanted});
     if (!shear) return pass_on(shear);
     return std::vector{fmt::format("{}{}", shear_words, dealiasing_name(options.dealiasing))};
 }
