@@ -16,14 +16,14 @@ namespace {
 using grid::CellStatus;
 using level2::Moment;
 
-constexpr int nx = 40, ny = 36, nz = 20;
+constexpr int shear_nx = 40, shear_ny = 36, shear_nz = 20;
 
 grid::GridSpec spec_of_shear() {
     grid::GridSpec spec = grid::default_spec(35, -97);
-    spec.nx = nx;
-    spec.ny = ny;
+    spec.nx = shear_nx;
+    spec.ny = shear_ny;
     spec.levels_m.clear();
-    for (int z = 0; z < nz; ++z)
+    for (int z = 0; z < shear_nz; ++z)
         spec.levels_m.push_back(500.0 * (z + 1));
     return spec;
 }
@@ -33,11 +33,11 @@ grid::BrickGrid shear_bricks(const std::function<std::optional<float>(int, int, 
     grid::Grid grid;
     grid.spec = spec_of_shear();
     grid.moment = Moment::azsh;
-    grid.values.assign(static_cast<std::size_t>(nx) * ny * nz, 0);
+    grid.values.assign(static_cast<std::size_t>(shear_nx) * shear_ny * shear_nz, 0);
     grid.status.assign(grid.values.size(), CellStatus::ambiguous);
-    for (int z = 0; z < nz; ++z) {
-        for (int y = 0; y < ny; ++y) {
-            for (int x = 0; x < nx; ++x) {
+    for (int z = 0; z < shear_nz; ++z) {
+        for (int y = 0; y < shear_ny; ++y) {
+            for (int x = 0; x < shear_nx; ++x) {
                 const auto shear = shear_at(x, y, z);
                 if (!shear) continue;
                 grid.values[grid.spec.index(x, y, z)] = *shear;
@@ -49,12 +49,12 @@ grid::BrickGrid shear_bricks(const std::function<std::optional<float>(int, int, 
 }
 
 // Returns the number of cells whose share says that they are in a column.
-int column_cells(const grid::BrickGrid& columns) {
+int count_column_cells(const grid::BrickGrid& columns) {
     int count = 0;
     const grid::BrickView view = columns.view();
-    for (int x = 0; x < nx; ++x)
-        for (int y = 0; y < ny; ++y)
-            for (int z = 0; z < nz; ++z)
+    for (int x = 0; x < shear_nx; ++x)
+        for (int y = 0; y < shear_ny; ++y)
+            for (int z = 0; z < shear_nz; ++z)
                 count += view.status(x, y, z) == CellStatus::value &&
                                  std::abs(view.value(x, y, z)) >= column_share
                              ? 1
@@ -74,12 +74,13 @@ TEST(Rotation, StrongCellsAboveEachOtherMakeAColumn) {
     EXPECT_NEAR(view.value(11, 12, 9), 0.125, 0.006);
     EXPECT_NEAR(view.value(12, 12, 9), 0, 0.006);
     EXPECT_EQ(view.status(20, 20, 9), CellStatus::not_seen);
-    EXPECT_EQ(column_cells(columns), 2 * (nz - 2)) << "the ends have three quarters of the weight";
+    EXPECT_EQ(count_column_cells(columns), 2 * (shear_nz - 2))
+        << "the ends have three quarters of the weight";
 }
 
 TEST(Rotation, WeakSingleAndShallowCellsMakeNoColumn) {
     const auto count = [](const std::function<std::optional<float>(int, int, int)>& shear_at) {
-        return column_cells(rotation_columns(shear_bricks(shear_at).view()));
+        return count_column_cells(rotation_columns(shear_bricks(shear_at).view()));
     };
     EXPECT_EQ(count([](int x, int, int) { return x % 9 == 4 ? 7.9F : 0.0F; }), 0);
     EXPECT_EQ(count([](int x, int y, int z) { return (x + y) % 7 == 0 && z == 4 ? 50.0F : 0.0F; }),
@@ -106,7 +107,7 @@ TEST(Rotation, AColumnMayLeanAcrossBricksAndTouchTheEdge) {
     const auto shear = shear_bricks(
         [](int x, int y, int z) { return y == 0 && x >= z && x < z + 3 ? 12.0F : 0.0F; });
     const auto columns = rotation_columns(shear.view());
-    for (int z = 0; z < nz; ++z)
+    for (int z = 0; z < shear_nz; ++z)
         EXPECT_GE(columns.view().value(z + 1, 0, z), column_share) << z;
 }
 
