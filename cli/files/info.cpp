@@ -201,6 +201,13 @@ struct Wish {
     retrieve::DerivedOptions how;
 };
 
+std::string derived_moment_names() {
+    std::vector<std::string_view> names;
+    for (const level2::MomentFacts& facts : level2::moment_facts)
+        if (facts.is_derived) names.push_back(facts.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // Reads --moment and --dealias. The dealiased velocity is written with any derived moment.
 Result<Wish> wish_of(const InfoOptions& options) {
     Wish wish;
@@ -208,9 +215,9 @@ Result<Wish> wish_of(const InfoOptions& options) {
         const auto moment = level2::moment_from_name(name);
         if (!moment || !level2::facts_of(*moment).is_derived)
             return fail(ErrorCode::bad_argument,
-                        "--moment {}: it names moments to derive, such as AZSH or DIVG; those of "
-                        "the radar are always written",
-                        printable(name));
+                        "--moment {}: it names moments to derive ({}); those of the radar are "
+                        "always written",
+                        printable(name), derived_moment_names());
         wish.moments.push_back(*moment);
     }
     if (options.dealias.empty()) return wish;
@@ -351,7 +358,8 @@ Run set_up_info(CLI::App& info) {
         ->default_str("off")
         ->needs(to);
     info.add_option("--moment", options->derived,
-                    "Also write moments that are derived from velocities: VELD, SRV, AZSH, DIVG")
+                    fmt::format("Also write moments that are derived from the radar's: {}",
+                                derived_moment_names()))
         ->delimiter(',')
         ->needs(to);
     add_site_options(info, options->site);

@@ -173,7 +173,7 @@ ColorTable rotation_colors() {
     constexpr double dense = 0.2;  // for each kilometer
     constexpr float edge = 0.03F;
     ColorTable table;
-    table.name = "rotation";
+    table.name = "columns-of-rotation";
     table.moment = level2::Moment::azsh;
     table.stops = {{-1, anticyclonic_color, anticyclonic_color},
                    {0, cyclonic_color, cyclonic_color}};

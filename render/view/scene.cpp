@@ -69,7 +69,7 @@ Status check_colors(const Scene& scene) {
 
 Status check_glyphs(const Scene& scene) {
     if (!scene.glyphs || has_beam_glyphs(scene.moment)) return {};
-    return fail(ErrorCode::bad_argument, "beam glyphs show velocities (VEL, VELD or SRV), not {}",
+    return fail(ErrorCode::bad_argument, "beam glyphs show velocities, not {}",
                 level2::moment_name(scene.moment));
 }
 

@@ -269,7 +269,7 @@ TEST(BeamGlyphs, ShowVelocitiesOnly) {
     scene.product = Product::ppi;
     scene.glyphs = true;
     EXPECT_EQ(validate(scene).error().message,
-              "beam glyphs show velocities (VEL, VELD or SRV), not REF");
+              "beam glyphs show velocities, not REF");
     for (const Moment moment : {Moment::vel, Moment::veld, Moment::srv}) {
         scene.moment = moment;
         EXPECT_TRUE(validate(scene));

@@ -1,5 +1,5 @@
-// Checks the pictures of the wind on the storm of Moore on 3 May 1999: beam glyphs on a sweep of velocities, and columns
-// of rotation in the volume of reflectivity.
+// Checks the pictures of the wind on the storm of Moore on 3 May 1999: beam glyphs on a sweep of velocities, and
+// columns of rotation in the volume of reflectivity.
 import { expect, report, test as base } from './fixtures.mjs';
 import { image } from './pixels.mjs';
 

@@ -24,9 +24,9 @@ struct FrameCache;  // render/frame/frame_cache.h
 // prepared only once and memory is allocated only once; the pixels are the same with or without a
 // cache. A ppi needs a view of a sweep (BrickView::sweep), every other product a view of a grid.
 // Errors: bad_argument if the view has another moment than the scene or is of the wrong kind, for
-// heights beyond the grid, and for a section outside the grid; those of check_frame(). If `rotation`
-// is given, its columns (render/products/rotation.h) are drawn over a volume, because echo would
-// hide them; they must be on the grid of the view.
+// heights beyond the grid, and for a section outside the grid; those of check_frame(). The columns
+// of `rotation` (render/products/rotation.h; null: none) are drawn over a volume, because echo
+// would hide them. They must be on the grid of the view.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameCache* cache = nullptr,
