@@ -196,7 +196,7 @@ Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& f
     return number - 1;
 }
 
-struct Wish {
+struct DerivedWish {
     std::vector<level2::Moment> moments;  // empty: only those of the radar
     retrieve::DerivedOptions how;
 };
@@ -209,8 +209,8 @@ std::string derived_moment_names() {
 }
 
 // Reads --moment and --dealias. The dealiased velocity is written with any derived moment.
-Result<Wish> wish_of(const InfoOptions& options) {
-    Wish wish;
+Result<DerivedWish> derived_wish_of(const InfoOptions& options) {
+    DerivedWish wish;
     for (const std::string& name : options.derived) {
         const auto moment = level2::moment_from_name(name);
         if (!moment || !level2::facts_of(*moment).is_derived)
@@ -230,7 +230,7 @@ Result<Wish> wish_of(const InfoOptions& options) {
 }
 
 Status write_chosen(const InfoOptions& options, const InputFile& file, level2::Decoded decoded) {
-    const auto wish = wish_of(options);
+    const auto wish = derived_wish_of(options);
     if (!wish) return pass_on(wish);
     const level2::DecodeReport report = decoded.report;
     std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
