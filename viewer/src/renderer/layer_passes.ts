@@ -51,7 +51,7 @@ export interface DrawnLayers {
     maximum: PlacedField | null;
     sweep: DrawnSweep | null;
     crop: Crop | null;
-    rotation: LoadedGrid | null; // columns of rotation (fields/rotation.ts)
+    rotation: LoadedGrid | null; // columns of rotation (page/rotation.ts)
     falls: (Falls & { placing: Placing }) | null; // null: the volume is not lit
     air: (Air & { placing: Placing }) | null;
     hasHaze: boolean;

@@ -36,7 +36,7 @@ export interface Layers {
 }
 
 // The moment whose strong values are drawn as rotation, and their least strength in its unit, 0.001/s. Where the values
-// are above zero, rotation is counterclockwise. fields/rotation.ts says what the share is.
+// are above zero, rotation is counterclockwise. page/rotation.ts says what the share is.
 export const rotationMoment = 'AZSH';
 export const leastRotation = 8;
 export const columnShare = 0.22;

@@ -1,6 +1,6 @@
 // Draws the beam glyphs of the shown sweep, and their key.
 
-import { BeamGlyph, Pixel, discRadius, pixelsPerMps, planGlyphs } from '../../fields/beam_glyphs';
+import { BeamGlyph, Pixel, discRadius, pixelsPerMps, planGlyphs } from '../beam_glyphs';
 import { planeOf } from '../../earth/projection';
 import { shades } from '../../renderer/shades';
 import { sweepMoment } from '../../scene/layers';

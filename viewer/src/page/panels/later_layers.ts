@@ -1,6 +1,6 @@
 // The parts of layers that few pictures need. load_layers.ts loads them when a layer needs them.
 
-import { rotationOf } from '../../fields/rotation';
+import { rotationOf } from '../rotation';
 import { App } from '../app';
 import { Drawing } from '../drawing';
 import { addGlyphs } from './glyph_overlay';

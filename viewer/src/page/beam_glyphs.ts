@@ -9,7 +9,7 @@ import { GridPlane, Plane, destination, geodesic } from '../earth/projection';
 import { DrawnSweep } from '../renderer/layer_passes';
 import { gateAt } from '../scene/solid_hits';
 import { CellState } from '../wire/packed_grid';
-import { beamAt, rangeAt } from './sweep_cone';
+import { beamAt, rangeAt } from '../fields/sweep_cone';
 
 export type Pixel = [number, number];
 

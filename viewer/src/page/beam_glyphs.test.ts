@@ -8,7 +8,7 @@ import { evenLevels, packedGrid } from '../testing/written_grid';
 import { readPackedGrid } from '../wire/packed_grid';
 import { PackedSweep } from '../wire/packed_sweep';
 import { BeamGlyph, Pixel, pixelsPerMps, planGlyphs } from './beam_glyphs';
-import { beamAt, coneOf, radialsByAzimuth, rangeAt } from './sweep_cone';
+import { beamAt, coneOf, radialsByAzimuth, rangeAt } from '../fields/sweep_cone';
 
 const grid = readPackedGrid(packedGrid({ nx: 200, ny: 200, levelsM: evenLevels(16), codeOf: () => 1 }));
 const plane = planeOf(grid);
