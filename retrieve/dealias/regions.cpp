@@ -19,8 +19,9 @@ constexpr std::int32_t tile_radials = 8, tile_gates = 16;
 // Returns the number of the third, from 1 to 3, or 0 if there is no value. It has no branches, so
 // that the compiler handles several gates at once.
 std::uint8_t third_of(float turns) {
-    const int number =
-        (turns == turns ? 1 : 0) + (turns >= -1.0F / 6 ? 1 : 0) + (turns >= 1.0F / 6 ? 1 : 0);
+    // Comparing NaN with >= would be an invalid operation (base/floating_point.h).
+    const int number = (turns == turns ? 1 : 0) + (std::isgreaterequal(turns, -1.0F / 6) ? 1 : 0) +
+                       (std::isgreaterequal(turns, 1.0F / 6) ? 1 : 0);
     return static_cast<std::uint8_t>(number);
 }
 
