@@ -61,8 +61,8 @@ constexpr HeightLayer low_layer{0, 2000}, middle_layer{3000, 6000};
 std::string title_of_layer(std::string_view what, const HeightLayer& layer, const Units& units) {
     const UnitFacts& unit = facts_of(units.height);
     return fmt::format("{}, largest azimuthal shear {} to {} {} above the radar", what,
-                       number_text(layer.bottom_m / unit.si), number_text(layer.top_m / unit.si),
-                       unit.symbol);
+                       number_text(layer.bottom_m / unit.si, 3),
+                       number_text(layer.top_m / unit.si, 3), unit.symbol);
 }
 std::string rotation_title(const Scene& scene) {
     return title_of_layer("Rotation", low_layer, scene.units);
