@@ -243,7 +243,9 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
         facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
     facts.quality = retrieve::quality_in_notes(description.provenance.notes);
     facts.since = track_start(description.provenance.notes);
-    facts.dealiasing = retrieve::dealiasing_in_notes(description.provenance.notes);
+    // Grids of other moments of the volume have the note, too.
+    if (level2::is_dealiased(description.moment))
+        facts.dealiasing = retrieve::dealiasing_in_notes(description.provenance.notes);
     const std::string zone = time_zone.empty() ? machine_time_zone() : time_zone;
     const auto local = zone.empty() ? std::string{} : format_local(facts.time, zone).value_or("");
     if (!local.ends_with(" UTC")) facts.local_time = local;
