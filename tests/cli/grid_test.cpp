@@ -202,6 +202,26 @@ TEST_F(GridTest, DealiasedVelocityIsAMomentOfItsOwn) {
     expect_usage({of_1999, "--dealias", "auto"}, "--dealias needs --moment VEL");
 }
 
+TEST_F(GridTest, QualityLeavesOutEchoThatIsProbablyNoWeather) {
+    STORMCELLAR_NEED_DATA();
+    const std::string winter = volume("KDMX20220305_232324.trimmed.ar2v");
+    const auto values_of = [&](const Words& arguments) {
+        const auto json = json_of(grid(with({winter, "-o", file("out.nc"), "--json"}, arguments)));
+        return json.at("cells").at("value").get<int>();
+    };
+    const int all = values_of({}), weather = values_of({"--quality", "0.5"});
+    EXPECT_LT(weather, all);
+    EXPECT_GT(weather, all / 2);
+    EXPECT_EQ(values_of({"--quality", "0"}), all);
+    EXPECT_GT(values_of({"--moment", "POW"}), all / 2);
+    const ProgramResult text = grid({winter, "-o", file("out.nc"), "--quality", "0.5"});
+    EXPECT_NE(text.out.find("probability of weather at least 0.5; "), std::string::npos)
+        << text.out;
+    fs::remove(file("out.nc"));
+    expect_usage({winter, "--quality", "50"}, "--quality must be from 0 to 1");
+    expect_usage({winter, "--quality", "nan"}, "--quality must be from 0 to 1");
+}
+
 // The plan has a line for each rung of dealiasing, says why it is on, and gives the grid its rung.
 TEST_F(GridTest, APlanChoosesTheRungOfDealiasing) {
     STORMCELLAR_NEED_DATA();
