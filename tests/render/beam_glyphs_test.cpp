@@ -268,8 +268,7 @@ TEST(BeamGlyphs, ShowVelocitiesOnly) {
     Scene scene;
     scene.product = Product::ppi;
     scene.glyphs = true;
-    EXPECT_EQ(validate(scene).error().message,
-              "beam glyphs show velocities, not REF");
+    EXPECT_EQ(validate(scene).error().message, "beam glyphs show velocities, not REF");
     for (const Moment moment : {Moment::vel, Moment::veld, Moment::srv}) {
         scene.moment = moment;
         EXPECT_TRUE(validate(scene));

@@ -32,13 +32,13 @@ const all: programs.ShaderProgram[] = [
     ]),
     ...grids.flatMap((grid) => [
         ...volumes.map((volume) => programs.volumeProgram({ ...grid, ...volume })),
-        ...either.flatMap((one) =>
-            either.flatMap((other) => [
+        ...either.flatMap((one) => [
+            programs.surfaceProgram({ ...grid, isBelow: one, isColumn: true }),
+            ...either.flatMap((other) => [
                 programs.airProgram({ ...grid, hasHaze: one, hasFolded: other }),
                 programs.surfaceProgram({ ...grid, isBelow: one, hasOther: other }),
-                programs.surfaceProgram({ ...grid, isBelow: one, isColumn: true }),
             ]),
-        ),
+        ]),
     ]),
 ];
 

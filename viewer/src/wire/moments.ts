@@ -45,7 +45,9 @@ export const tablesOf = (name: string): string => (isMoment(name) ? facts[name].
 
 // Returns the moment that shows the values of a measured moment dealiased; null if there is none.
 export function derivedOf(name: string): string | null {
-    const found = Object.entries(facts).find(([, { isDerived, measured }]) => isDerived && measured === name);
+    const found = Object.entries(facts).find(
+        ([, { isDerived, isDoppler, measured }]) => isDerived && isDoppler && measured === name,
+    );
     return found ? found[0] : null;
 }
 
