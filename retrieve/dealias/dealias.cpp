@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/degree.h"
+#include "base/floating_point.h"
 #include "retrieve/dealias/ambiguity.h"
 #include "retrieve/dealias/anchors.h"
 #include "retrieve/dealias/known_sheet.h"
@@ -255,6 +256,8 @@ Dealiased empty_folds(const level2::Volume& volume, bool ambiguous) {
 
 Dealiased dealias(const level2::Volume& volume, Dealiasing rung,
                   std::span<const level2::Sweep> known_sweeps) {
+    // Loops that handle several gates at once also compare gates without a value, which are NaN.
+    const MaskedTraps traps;
     const bool is_wanted = rung != Dealiasing::off;
     if (rung == Dealiasing::automatic)
         rung = needs_dealiasing(volume) ? Dealiasing::anchored : Dealiasing::off;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "retrieve/dealias/velocity_sheet.h"
+
 namespace stormcellar::retrieve {
 namespace {
 
@@ -13,8 +15,8 @@ using level2::SweepMoment;
 void read_moment(const level2::Sweep& sweep, const SweepMoment& raw, const SweepMoment& dealiased,
                  SweepFolds& folds) {
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
+        if (!can_be_unfolded(sweep.radials[radial])) continue;
         const float turn_mps = 2 * sweep.radials[radial].nyquist_mps;
-        if (!(turn_mps > 0)) continue;
         const std::size_t row = radial * static_cast<std::size_t>(raw.gate_stride);
         for (std::int32_t gate = 0; gate < raw.gate_counts[radial]; ++gate) {
             const std::uint16_t code = dealiased.code(radial, gate);
