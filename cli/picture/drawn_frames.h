@@ -1,6 +1,6 @@
 // cli/picture/drawn_frames.h -- keeps pictures of a followed loop for reuse.
 //
-// When a grid arrives, a new loop is made, and all of its frames but one were also in the last
+// Each grid that arrives gives a new loop, and all of its frames but one were also in the last
 // loop. A picture is identified by the file of its grid (path, inode, time and size) and by the
 // parts of the scene that may differ between frames, because the plan or the echo sets them:
 // camera, exaggeration, opacity, light, slices, integration and rays.

@@ -3,30 +3,15 @@
 #include <utility>
 
 #include "render/options/scene_options.h"
+#include "stormcellar/retrieve/velocity_shear.h"
 
 namespace stormcellar::cli {
 namespace {
 
-using grid::CellStatus;
-
-int knowledge_of(CellStatus status) {
-    switch (status) {
-        case CellStatus::not_seen:
-            return 0;
-        case CellStatus::range_folded:
-        case CellStatus::ambiguous:
-            return 1;
-        case CellStatus::no_echo:
-            return 2;
-        case CellStatus::value:
-            return 3;
-    }
-    return 0;
-}
-
 void take_larger(const grid::Grid& from, grid::Grid& to) {
     for (std::size_t i = 0; i < to.status.size(); ++i) {
-        const int known = knowledge_of(from.status[i]), known_before = knowledge_of(to.status[i]);
+        const int known = retrieve::knowledge(from.status[i]);
+        const int known_before = retrieve::knowledge(to.status[i]);
         const bool is_larger = known == known_before && from.values[i] > to.values[i];
         if (known <= known_before && !is_larger) continue;
         to.status[i] = from.status[i];

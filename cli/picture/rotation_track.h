@@ -1,8 +1,8 @@
 // cli/picture/rotation_track.h -- the largest azimuthal shear of each cell over time.
 //
-// As in retrieve::add_to_track(), the volume that knows more of a cell decides: a value, else no
-// echo, else range folded or ambiguous, else not seen. Of two values the larger stays, so that
-// counterclockwise rotation leaves a track.
+// The volume that knows more of a cell decides (retrieve::knowledge()). Of two values the larger
+// stays, so that counterclockwise rotation leaves a track. retrieve::add_to_track() does the same
+// for the gates of one radar.
 //
 // Threads   One thread at a time; work is split over `threads`.
 #pragma once

@@ -9,22 +9,6 @@ namespace {
 
 using grid::CellStatus;
 
-// Ranks the states of a cell: the sweep that knows more decides.
-int knowledge(CellStatus status) {
-    switch (status) {
-        case CellStatus::not_seen:
-            return 0;
-        case CellStatus::range_folded:
-        case CellStatus::ambiguous:
-            return 1;
-        case CellStatus::no_echo:
-            return 2;
-        case CellStatus::value:
-            return 3;
-    }
-    return 0;
-}
-
 void take_stronger(const ShearCell& from, ShearCell& to) {
     const int known = knowledge(from.status), known_before = knowledge(to.status);
     if (known > known_before || (known == known_before && from.status == CellStatus::value &&
@@ -132,6 +116,21 @@ Result<void> add_sweep(const level2::Volume& volume, const SweepFolds& folds,
 }
 
 }  // namespace
+
+int knowledge(CellStatus status) {
+    switch (status) {
+        case CellStatus::not_seen:
+            return 0;
+        case CellStatus::range_folded:
+        case CellStatus::ambiguous:
+            return 1;
+        case CellStatus::no_echo:
+            return 2;
+        case CellStatus::value:
+            return 3;
+    }
+    return 0;
+}
 
 Result<std::vector<ShearLayer>> shear_layers(const level2::Volume& volume,
                                              const Dealiased& dealiased,

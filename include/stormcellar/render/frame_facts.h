@@ -32,7 +32,7 @@ struct FrameFacts {
     std::optional<retrieve::Motion> storm_motion = {};
     // The echo that was left out because it is probably no weather (quality_in_notes()), or empty.
     std::string quality = {};
-    // How the velocities were dealiased whose shear the grid shows; empty if the grid does not say.
+    // The rung that dealiased the velocities of a grid of shear; empty for other grids.
     std::string dealiasing = {};
     std::optional<UtcTime> since = {};  // the first volume of a product over time
     bool interpolated = false;          // the grid was interpolated between volumes, as requested

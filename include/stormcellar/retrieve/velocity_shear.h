@@ -107,6 +107,10 @@ struct ShearCell {
     UtcTime time;  // of the radial
 };
 
+// Ranks the states of a cell: value before no echo, before range folded and ambiguous, before not
+// seen. Where several sweeps or volumes show a cell, the highest rank decides.
+[[nodiscard]] int knowledge(grid::CellStatus status);
+
 // A layer about the radar. Cell (azimuth a, arc b) is centered (a + 1/2) azimuth_step_deg from
 // north and (b + 1/2) arc_step_m from the radar, and takes the nearest gate of each sweep whose
 // center is within the layer there.

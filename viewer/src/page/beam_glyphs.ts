@@ -36,7 +36,7 @@ function latticeOf(geometry: ViewGeometry, spacingM: number): { low: Pixel; high
     const corners = [0, 0.5, 1].flatMap((x) => [0, 0.5, 1].map((y) => geometry.ground(x * width, y * height)));
     const low: Pixel = [-box.halfXM, -box.halfYM];
     const high: Pixel = [box.halfXM, box.halfYM];
-    // Where the picture has sky, its ground may end anywhere.
+    // A picture with sky shows ground up to the horizon, so the box alone limits the lattice.
     if (corners.every((one): one is Plane => one !== null)) {
         for (const i of [0, 1] as const) {
             const all = corners.map((one) => one[i]);
