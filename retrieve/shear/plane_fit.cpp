@@ -152,29 +152,31 @@ void PlaneFit::solve(const BlockSums& total, std::size_t first,
         const float count = total.n[i];
         const float whole = gates_a_row * std::max(total.rows[i], expected_rows_[first + i]);
         if (count < std::max(least_gates, kernel_.least_share * whole)) continue;
-        // Require places that are far enough apart in both directions.
+        // Require places that are far enough apart in both directions. Names with d are sums about
+        // the mean.
         const float mean_x = total.x[i] / count, mean_y = total.y[i] / count;
-        const float xx = total.xx[i] - total.x[i] * mean_x;
-        const float yy = total.yy[i] - total.y[i] * mean_y;
-        const float xy = total.xy[i] - total.x[i] * mean_y;
-        const float determinant = xx * yy - xy * xy;
-        if (!(xx >= least_variance_x * count &&
-              yy >= least_variance_y * spacing * spacing * count &&
-              determinant >= least_independence * xx * yy))
+        const float dxx = total.xx[i] - total.x[i] * mean_x;
+        const float dyy = total.yy[i] - total.y[i] * mean_y;
+        const float dxy = total.xy[i] - total.x[i] * mean_y;
+        const float determinant = dxx * dyy - dxy * dxy;
+        if (!(dxx >= least_variance_x * count &&
+              dyy >= least_variance_y * spacing * spacing * count &&
+              determinant >= least_independence * dxx * dyy))
             continue;
-        // Solve the normal equations, with all sums about the mean.
-        const float xv = total.xv[i] - mean_x * total.v[i];
-        const float yv = total.yv[i] - mean_y * total.v[i];
-        const float b = (yy * xv - xy * yv) / determinant;
-        const float c = (xx * yv - xy * xv) / determinant;
+        // Solve the normal equations.
+        const float dxv = total.xv[i] - mean_x * total.v[i];
+        const float dyv = total.yv[i] - mean_y * total.v[i];
+        const float b = (dyy * dxv - dxy * dyv) / determinant;
+        const float c = (dxx * dyv - dxy * dxv) / determinant;
         // Sum the squares of the distances of the unfiltered velocities from this plane.
-        const float rr = total.rr[i] - total.r[i] * total.r[i] / count;
-        const float xr = total.xr[i] - mean_x * total.r[i];
-        const float yr = total.yr[i] - mean_y * total.r[i];
-        const float squares = rr - 2 * (b * xr + c * yr) + b * b * xx + 2 * b * c * xy + c * c * yy;
+        const float drr = total.rr[i] - total.r[i] * total.r[i] / count;
+        const float dxr = total.xr[i] - mean_x * total.r[i];
+        const float dyr = total.yr[i] - mean_y * total.r[i];
+        const float squares =
+            drr - 2 * (b * dxr + c * dyr) + b * b * dxx + 2 * b * c * dxy + c * c * dyy;
         const float variance = std::max(squares / (count - unknowns), rounding);
-        slopes[i] = {b, std::sqrt(variance * yy / determinant), c,
-                     std::sqrt(variance * xx / determinant), true};
+        slopes[i] = {b, std::sqrt(variance * dyy / determinant), c,
+                     std::sqrt(variance * dxx / determinant), true};
     }
 }
 
