@@ -230,6 +230,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--orbit", "DEGREES"},
     {"--field-of-view", "DEGREES"},
     {"--echo-top-dbz", "DBZ"},
+    {"--freezing-levels", "ZERO,MINUS20"},
     {"--width", "PIXELS"},
     {"--height", "PIXELS"},
 });

@@ -119,6 +119,24 @@ constexpr ColorClass vil_density_classes[] = {
     {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
 };
 
+constexpr ColorClass hail_size_classes[] = {
+    {5, 0x6C7A89},  {10, 0x4F7FB5}, {15, 0x2FA4D8},  {20, 0x35C3A0},
+    {25, 0x43B649}, {30, 0xA5CF3B}, {40, 0xFFDC3C},  {50, 0xFF9A2E},
+    {60, 0xFF5A36}, {75, 0xD41F3A}, {100, 0xD64BC8}, {125, 0xF4C6F2},
+};
+
+constexpr ColorClass hail_probability_classes[] = {
+    {10, 0x6C7A89}, {20, 0x4F7FB5}, {30, 0x2FA4D8}, {40, 0x35C3A0}, {50, 0x43B649},
+    {60, 0xA5CF3B}, {70, 0xFFDC3C}, {80, 0xFF9A2E}, {90, 0xFF5A36}, {100, 0xD64BC8},
+};
+
+// The bounds are the SHI of hail of 5, 10, 15 ... mm, so that maps of both look alike.
+constexpr ColorClass hail_index_classes[] = {
+    {4, 0x6C7A89},   {16, 0x4F7FB5},  {35, 0x2FA4D8},   {62, 0x35C3A0},
+    {97, 0x43B649},  {140, 0xA5CF3B}, {248, 0xFFDC3C},  {388, 0xFF9A2E},
+    {558, 0xFF5A36}, {872, 0xD41F3A}, {1550, 0xD64BC8}, {2422, 0xF4C6F2},
+};
+
 constexpr ColorClass safe_reflectivity_classes[] = {
     {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
     {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
@@ -175,6 +193,9 @@ constexpr std::array stepped_tables{
     SteppedTable{"cfp", Moment::cfp, {}, cfp_classes, 55},
     SteppedTable{"height", {}, "km", height_classes, 20, 0.0F},
     SteppedTable{"water-density", {}, "g/m3", vil_density_classes, 7},
+    SteppedTable{"hail-size", {}, "mm", hail_size_classes, 150},
+    SteppedTable{"hail-probability", {}, "%", hail_probability_classes, 110},
+    SteppedTable{"hail-index", {}, "J/m/s", hail_index_classes, 3500},
     SteppedTable{"safe-reflectivity", Moment::ref, {}, safe_reflectivity_classes, 80},
     SteppedTable{"safe-velocity", Moment::vel, {}, safe_velocity_classes, 40, -40.0F},
     SteppedTable{"safe-zdr", Moment::zdr, {}, safe_zdr_classes, 8, -4.0F},
@@ -242,6 +263,15 @@ const ColorTable& height_colors() {
 }
 const ColorTable& vil_density_colors() {
     return table_named("water-density");
+}
+const ColorTable& hail_size_colors() {
+    return table_named("hail-size");
+}
+const ColorTable& hail_probability_colors() {
+    return table_named("hail-probability");
+}
+const ColorTable& hail_index_colors() {
+    return table_named("hail-index");
 }
 const ColorTable& clear_air_colors() {
     return table_named("smooth-clear-air");

@@ -13,6 +13,9 @@
 //   height              km      our own colors, safe
 //   water-density       g/m3    our own colors for VIL density; large hail is likely from 3.5 g/m3
 //                               (Amburn and Wolf 1997), where red begins
+//   hail-size           mm      our own colors for MESH; green begins at the 25 mm of severe hail
+//   hail-probability    %       our own colors for POSH; green begins at 50 %
+//   hail-index          J/m/s   our own colors for SHI, those of the size that follows from it
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/moment_look.h)
@@ -62,6 +65,9 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 [[nodiscard]] const ColorTable& vil_colors();
 [[nodiscard]] const ColorTable& height_colors();
 [[nodiscard]] const ColorTable& vil_density_colors();
+[[nodiscard]] const ColorTable& hail_size_colors();
+[[nodiscard]] const ColorTable& hail_probability_colors();
+[[nodiscard]] const ColorTable& hail_index_colors();
 
 // The families. A family has one table for each moment: "smooth" has the default table without
 // classes, and "nws" the default table with classes.

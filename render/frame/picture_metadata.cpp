@@ -91,6 +91,11 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     add("Product", std::string(product_name(scene.product)));
     add("Moment", std::string(level2::moment_name(scene.moment)));
     add("Units", written_unit(scene).symbol);
+    if (facts_of(scene.product).hail != nullptr)
+        add("Freezing levels",
+            fmt::format("0 C at {:g} m, -20 C at {:g} m above sea level, assumed",
+                        scene.freezing_levels.zero_c_m, scene.freezing_levels.minus_20_c_m));
+    add("Hail error", facts.hail);
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);

@@ -8,6 +8,8 @@
 //   Last time           for a loop
 //   Frames              for a loop
 //   Domain, Stations, Product, Moment, Units
+//   Freezing levels     for hail
+//   Hail error          if the freezing levels err; for a still
 //   Grid                cells, spacing, levels
 //   Gridding            method, beam, averaging, effects
 //   Gridding error      as predicted, if it was predicted
@@ -39,6 +41,7 @@ struct PictureFacts {
     std::optional<std::size_t> frames;  // none: a still
     std::string between;                // how frames between grids were made; empty: there are none
     std::string error;                  // error of the picture by its plan; empty: not planned
+    std::string hail = {};              // error of the largest hail; empty: no hail
 };
 
 // Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid, whose

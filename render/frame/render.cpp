@@ -1,5 +1,6 @@
 #include "stormcellar/render/render.h"
 
+#include "render/frame/hail_text.h"
 #include "render/frame/sweep_text.h"
 #include "render/frame/view_picture.h"
 #include "render/image/shades.h"
@@ -61,6 +62,9 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     if (!fonts) return pass_on(fonts);
     DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
     if (rotation != nullptr) add_rotation_rows(texts.legend);
+    const auto sensitivity = hail_sensitivity(view, scene, threads);
+    if (!sensitivity) return pass_on(sensitivity);
+    texts.hail = *sensitivity;
     if (of_sweep) {
         const auto place = lay_out_labels(*fonts, scene, facts, texts);
         if (!place) return pass_on(place);

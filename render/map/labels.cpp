@@ -224,6 +224,7 @@ void lay_out_header(LabelBuilder& builder, PictureShape shape, double width,
 FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, const DrawnFacts& picture) {
     FooterTexts texts;
     texts.view = view_line(scene, facts, picture.ring_spacing_m);
+    if (!picture.hail.empty()) texts.view += "  \u00B7  " + picture.hail;
     texts.seen = picture.sweep;
     const auto& coverage = picture.coverage;
     if (facts.antenna_to_picture) {

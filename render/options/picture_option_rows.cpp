@@ -23,6 +23,7 @@ constexpr ProductUse by_section{.only = Product::section};
 constexpr ProductUse by_ppi{.only = Product::ppi};
 constexpr ProductUse by_threshold{.with_threshold = true};
 constexpr ProductUse by_maps{.maps = true};
+constexpr ProductUse by_hail{.hail = true};
 constexpr ProductUse by_all_but_section{.all_but = Product::section};
 
 constexpr std::array section_places{
@@ -31,6 +32,8 @@ constexpr std::array section_places{
 constexpr std::array camera_places{NumberPlace{"east", limits::eye_m.in(per_km)},
                                    NumberPlace{"north", limits::eye_m.in(per_km)},
                                    NumberPlace{"up", limits::eye_height_m.in(per_km)}};
+constexpr std::array freezing_places{NumberPlace{"0 C", limits::zero_c_m},
+                                     NumberPlace{"-20 C", limits::minus_20_c_m}};
 constexpr std::array sun_places{NumberPlace{"azimuth", turns_deg},
                                 NumberPlace{"elevation", limits::sun_elevation_deg}};
 
@@ -137,6 +140,14 @@ constexpr std::array option_rows{
                   .used_by = by_threshold,
                   .help = "Threshold in dBZ of echo tops, of the tops of VIL density and of the "
                           "maximum whose height is shown, {} to {}"},
+    PictureOption{.option = "--freezing-levels",
+                  .section = "picture",
+                  .key = "freezing_levels_m",
+                  .value = NumbersValue{freezing_places, set_freezing_levels},
+                  .used_by = by_hail,
+                  .help = "Heights above sea level in meters at which the air has 0 and -20 "
+                          "degrees Celsius, for hail. Default: 4200,7300, an assumption for warm "
+                          "days on the Great Plains"},
     PictureOption{.option = "--theme",
                   .section = "picture",
                   .key = "theme",

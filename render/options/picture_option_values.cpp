@@ -36,6 +36,10 @@ void set_look_at(PictureSettings to, std::span<const double> at) {
         Eye{at[0] * option_units_per_km, at[1] * option_units_per_km, at[2] * option_units_per_km};
 }
 
+void set_freezing_levels(PictureSettings to, std::span<const double> heights_m) {
+    to.scene.freezing_levels = {heights_m[0], heights_m[1]};
+}
+
 void set_sun(PictureSettings to, std::span<const double> sun) {
     to.scene.light.sun_azimuth_deg = sun[0];
     to.scene.light.sun_elevation_deg = sun[1];

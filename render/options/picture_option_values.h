@@ -20,6 +20,7 @@ inline constexpr double option_units_per_km = 1000;
 void set_section(PictureSettings to, std::span<const double> ends);
 void set_camera(PictureSettings to, std::span<const double> at);
 void set_look_at(PictureSettings to, std::span<const double> at);
+void set_freezing_levels(PictureSettings to, std::span<const double> heights_m);
 void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status set_light_kinds(PictureSettings to, const std::string& names);
 [[nodiscard]] std::string light_kinds(PictureSettings to);

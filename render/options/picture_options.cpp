@@ -30,10 +30,10 @@ struct HelpOf {
 
 std::string ProductUse::text() const {
     if (only) return std::string(product_name(*only));
-    if (with_threshold) {
+    if (with_threshold || hail) {
         std::vector<std::string_view> names;
         for (const ProductFacts& facts : all_products()) {
-            if (facts.threshold_dbz != nullptr) names.push_back(facts.name);
+            if (includes(facts.product)) names.push_back(facts.name);
         }
         return fmt::format("{}", fmt::join(names, ", "));
     }

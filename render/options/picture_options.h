@@ -86,18 +86,19 @@ struct NamesValue {
 using PictureValue =
     std::variant<FlagValue, WholeValue, NumberValue, NumbersValue, TextValue, NamesValue>;
 
-// The products that use an option: only one product; all but one; products with a threshold; maps.
-// If none of these is set, all products use it.
+// The products that use an option: only one product; all but one; products with a threshold; maps;
+// hail. If none of these is set, all products use it.
 struct ProductUse {
     std::optional<Product> only{};
     std::optional<Product> all_but{};
     bool with_threshold = false;
     bool maps = false;
+    bool hail = false;  // products of hail
 
     [[nodiscard]] bool includes(Product product) const {
         return (!only || product == *only) && (!all_but || product != *all_but) &&
                (!with_threshold || facts_of(product).threshold_dbz != nullptr) &&
-               (!maps || is_map(product));
+               (!maps || is_map(product)) && (!hail || facts_of(product).hail != nullptr);
     }
     // Returns these products as a text, such as "cappi" or "any product but section".
     [[nodiscard]] std::string text() const;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "render/frame/hail_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/fitted_view.h"
 #include "stormcellar/render/render.h"
@@ -12,7 +13,9 @@ namespace {
 Metadata metadata_of_still(const StillSource& source, const Scene& scene,
                            const StillWriting& writing) {
     const UtcTime time = source.description.time;
-    const PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
+    PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
+    // If the sensitivity cannot be computed, drawing the picture fails with the reason.
+    told.hail = hail_sensitivity(source.view, scene, writing.threads).value_or("");
     if (writing.format.encode_map == nullptr) return metadata_of(told, source.description, scene);
     // Data must be in the units of the grid. A map as data has no picture size.
     Scene in_grid_units = scene;

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "render/products/cell_mixer.h"
+#include "render/products/hail_field.h"
 #include "render/products/sweep_field.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -363,6 +364,11 @@ Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, cons
         case Product::rotation_aloft:
         case Product::rotation_tracks:
             return rotation_field(view, facts, scene, threads);
+        case Product::mesh:
+        case Product::posh:
+        case Product::shi:
+            return hail_field(view, facts_of(scene.product).hail, scene.freezing_levels,
+                              radar_height_m(facts), columns, threads);
         case Product::volume:
         case Product::section:
             break;

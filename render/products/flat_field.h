@@ -30,6 +30,7 @@
 //                              the product's layer.
 //   rotation_tracks            As rotation, of a grid that has the largest value of each cell over
 //                              time.
+//   mesh, posh, shi   mm, %, J/m/s: hail (hail_field.h)
 // For products of reflectivity or shear, a column without a value is range folded if any cell is
 // range folded, because the echo behind it is unknown; else no echo (below the threshold) if any
 // cell was seen; else not seen. Of shear, such a column may also be ambiguous.
@@ -97,7 +98,8 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
 // Returns the field of the scene's product, which must be a map. The scene must be valid for the
-// view and its facts. Only a composite uses `columns`. Errors: those of cappi_field() and
+// view and its facts. Only a composite and hail
+// use `columns`. Errors: those of cappi_field() and
 // layer_maximum_field(); bad_argument for a layer above several radars; internal for a product that
 // is not a map.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,

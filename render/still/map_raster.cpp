@@ -14,9 +14,10 @@ Result<FlatField> still_field(const StillMap& map, int threads) {
     }
     if (auto valid = check_frame(map.view, map.facts, map.scene); !valid) return pass_on(valid);
     // Other products do not use the columns.
-    const auto columns = map.scene.product == Product::composite
-                             ? summarize_columns(map.view, threads)
-                             : std::vector<ColumnSummary>{};
+    const bool uses_columns =
+        map.scene.product == Product::composite || facts_of(map.scene.product).hail != nullptr;
+    const auto columns =
+        uses_columns ? summarize_columns(map.view, threads) : std::vector<ColumnSummary>{};
     return map_field(map.view, map.facts, map.scene, columns, threads);
 }
 

@@ -74,6 +74,22 @@ std::string rotation_tracks_title(const Scene& scene) {
     return title_of_layer("Rotation tracks", low_layer, scene.units);
 }
 
+// Adds the heights that the picture assumes to the name of a product of hail.
+std::string title_of_hail(std::string_view what, const Scene& scene) {
+    return fmt::format("{}, assuming 0 C at {} and -20 C at {}", what,
+                       height_text(scene.freezing_levels.zero_c_m, scene.units),
+                       height_text(scene.freezing_levels.minus_20_c_m, scene.units));
+}
+std::string mesh_title(const Scene& scene) {
+    return title_of_hail("Maximum expected size of hail (MESH)", scene);
+}
+std::string posh_title(const Scene& scene) {
+    return title_of_hail("Probability of severe hail (POSH)", scene);
+}
+std::string shi_title(const Scene& scene) {
+    return title_of_hail("Severe hail index (SHI)", scene);
+}
+
 constexpr auto product_facts = std::to_array<ProductFacts>({
     {.product = Product::volume, .name = "volume", .view = View::volume, .title = volume_title},
     {.product = Product::composite,
@@ -155,6 +171,36 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .is_smooth = true,
      .layer = low_layer,
      .is_over_time = true},
+    {.product = Product::mesh,
+     .name = "mesh",
+     .aside = "size of hail",
+     .title = mesh_title,
+     .unit = "mm",
+     .colors = hail_size_colors,
+     .only_moment = level2::Moment::ref,
+     .may_be_higher = true,
+     .is_smooth = true,
+     .hail = &retrieve::Hail::mesh_mm},
+    {.product = Product::posh,
+     .name = "posh",
+     .aside = "probability of severe hail",
+     .title = posh_title,
+     .unit = "%",
+     .colors = hail_probability_colors,
+     .only_moment = level2::Moment::ref,
+     .may_be_higher = true,
+     .is_smooth = true,
+     .hail = &retrieve::Hail::posh_percent},
+    {.product = Product::shi,
+     .name = "shi",
+     .aside = "severe hail index",
+     .title = shi_title,
+     .unit = "J/m/s",
+     .colors = hail_index_colors,
+     .only_moment = level2::Moment::ref,
+     .may_be_higher = true,
+     .is_smooth = true,
+     .hail = &retrieve::Hail::shi_j_per_m_s},
 });
 static_assert(is_in_order(product_facts, &ProductFacts::product));
 

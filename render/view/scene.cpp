@@ -105,7 +105,7 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const Eye look_at = camera.look_at.value_or(Eye{});
-    const std::array<Status, 25> checks = {
+    const std::array<Status, 26> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -139,6 +139,7 @@ Status validate(const Scene& scene) {
         scene.sweep_number == Scene::no_number
             ? Status{}
             : check_range("the number of a sweep", scene.sweep_number, limits::sweep_number),
+        retrieve::validate(scene.freezing_levels),
         check_section(scene),
         check_glyphs(scene),
         check_colors(scene),

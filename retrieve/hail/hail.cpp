@@ -7,6 +7,8 @@
 namespace stormcellar::retrieve {
 namespace {
 
+constexpr double share_of_flux = 0.1;  // SHI over the integral of the flux
+
 // Integrates the weight of temperature from far below up to a height: a ramp between the levels,
 // and 1 above.
 double weight_up_to(double height_m, const FreezingLevels& levels) {
@@ -38,7 +40,7 @@ std::vector<double> layer_weights(std::span<const double> heights_m, const Freez
         const double half_m = i < last ? (heights_m[i + 1] - heights_m[i]) / 2
                                        : (heights_m[last] - heights_m[last - 1]) / 2;
         const double above = weight_up_to(heights_m[i] + half_m, levels);
-        weights_m[i] = above - below;
+        weights_m[i] = share_of_flux * (above - below);
         below = above;
     }
     return weights_m;
@@ -48,7 +50,7 @@ double index_of(std::span<const double> weights_m, std::span<const float> dbz) {
     double sum = 0;
     for (std::size_t i = 0; i < std::min(weights_m.size(), dbz.size()); ++i)
         sum += weights_m[i] * hail_energy_flux(static_cast<double>(dbz[i]));
-    return 0.1 * sum;
+    return sum;
 }
 
 float witt_size_mm(double shi) {

@@ -14,6 +14,7 @@
 
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/moment.h"
+#include "stormcellar/retrieve/hail.h"
 
 namespace stormcellar::render {
 
@@ -35,7 +36,10 @@ enum class Product {
     highest_seen,
     rotation,
     rotation_aloft,
-    rotation_tracks
+    rotation_tracks,
+    mesh,
+    posh,
+    shi
 };
 
 // The kind of picture that a product makes.
@@ -68,6 +72,7 @@ struct ProductFacts {
     // True if the product draws a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
     std::optional<HeightLayer> layer = {};  // of which the product shows the largest value
+    float retrieve::Hail::*hail = nullptr;  // for hail: the number that it shows
     // True if the product shows the largest values of several volumes
     // (cli/picture/frame_sources.h).
     bool is_over_time = false;

@@ -20,6 +20,7 @@
 #include "stormcellar/render/product.h"
 #include "stormcellar/render/theme.h"
 #include "stormcellar/render/units.h"
+#include "stormcellar/retrieve/hail.h"
 
 namespace stormcellar::render {
 
@@ -38,6 +39,8 @@ inline constexpr NumberRange longitude_deg{-180, 360};
 inline constexpr NumberRange section_km{1, 5000};
 inline constexpr NumberRange cappi_height_m{-1e3, 6e4};
 inline constexpr NumberRange echo_top_dbz{-30, 80};
+inline constexpr NumberRange zero_c_m{-1000, 7000};
+inline constexpr NumberRange minus_20_c_m{0, 15000};
 inline constexpr NumberRange elevation_deg{-10, 90};  // or Scene::lowest_sweep
 inline constexpr NumberRange sweep_number{0, 9999};   // or Scene::no_number
 inline constexpr NumberRange slices{8, 4096};
@@ -80,6 +83,7 @@ struct Scene {
     double cappi_height_m = 3000;                       // above sea level
     std::optional<SectionLine> section = std::nullopt;  // required for a section
     double echo_top_dbz = 18.5;
+    retrieve::FreezingLevels freezing_levels;  // for hail
     // For a ppi: the elevation and the number that select the sweep of a volume. The picture shows
     // the sweep of its view, and scene_shown() sets elevation_deg to the angle of that sweep.
     static constexpr double lowest_sweep = -90;

@@ -60,8 +60,9 @@ struct Hail {
 
 // The part of the method that depends on heights alone, so columns with the same heights share it.
 struct HailLayers {
-    std::vector<double> weights_m;  // of each height: thickness times weight of temperature
-    double warning_threshold = 0;   // WT, J m^-1 s^-1
+    // SHI is the sum of hail_energy_flux() times the weight of each height.
+    std::vector<double> weights_m;
+    double warning_threshold = 0;  // WT, J m^-1 s^-1
 };
 
 // Computes the weights of a column. Heights must grow, and there must be at least two of them.

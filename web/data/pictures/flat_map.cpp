@@ -73,8 +73,9 @@ struct CellsTogether {
 };
 
 std::string key_of_map(const OpenGrid& grid, const render::Scene& scene) {
-    return fmt::format("{}|{}|{}|{}", grid.id, render::product_name(scene.product),
-                       scene.cappi_height_m, scene.echo_top_dbz);
+    return fmt::format("{}|{}|{}|{}|{}|{}", grid.id, render::product_name(scene.product),
+                       scene.cappi_height_m, scene.echo_top_dbz, scene.freezing_levels.zero_c_m,
+                       scene.freezing_levels.minus_20_c_m);
 }
 
 Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const render::Scene& scene,

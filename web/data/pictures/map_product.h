@@ -42,7 +42,7 @@ struct MapStyle {
 };
 
 // Returns true for the options that a layer takes as parameters: colors, smooth, height-km,
-// echo-top-dbz.
+// echo-top-dbz, freezing-levels.
 [[nodiscard]] bool is_of_layers(const render::PictureOption& option);
 
 // Reads the options of a layer. Ignores parameters named in `others`, which the caller reads.
