@@ -34,6 +34,8 @@ constexpr std::array unit_names = {UnitName{"m", Slot::position, 1, 1},
                                    UnitName{"deg", Slot::value, 1, 1, ValueUnit::degree},
                                    UnitName{"ratio", Slot::value, 1, 1, ValueUnit::ratio},
                                    UnitName{"0.001/s", Slot::value, 1, 1, ValueUnit::per_1000_s},
+                                   UnitName{"deg/km", Slot::value, 1, 1, ValueUnit::degree_per_km},
+                                   UnitName{"mm/h", Slot::value, 1, 1, ValueUnit::mm_per_h},
                                    UnitName{"de", Slot::image, 1, 1},
                                    UnitName{"s", Slot::time, 1, 1},
                                    UnitName{"ms", Slot::time, 1, 1000}};
@@ -97,8 +99,7 @@ Status take_part(std::string_view text, Budget& budget) {
     if (unit == unit_names.end()) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" in the budget has {}; the units are m, km, dB, m/s, deg, ratio, "
-                    "0.001/s, dE, ms and "
-                    "s",
+                    "0.001/s, deg/km, mm/h, dE, ms and s",
                     printable(text), part->unit.empty() ? "no unit" : "an unknown unit");
     }
     // Test before multiplying, so that no overflow raises a floating-point trap.

@@ -44,11 +44,13 @@ void mark_pareto(std::span<LadderRow> rows, TimeKind kind) {
 }
 
 std::vector<LadderField> fields(const LadderRow& row, ValueUnit unit) {
-    const std::string suffix = unit == ValueUnit::mps          ? "_mps"
-                               : unit == ValueUnit::degree     ? "_deg"
-                               : unit == ValueUnit::ratio      ? ""
-                               : unit == ValueUnit::per_1000_s ? "_per_1000_s"
-                                                               : "_db";
+    const std::string suffix = unit == ValueUnit::mps             ? "_mps"
+                               : unit == ValueUnit::degree        ? "_deg"
+                               : unit == ValueUnit::ratio         ? ""
+                               : unit == ValueUnit::per_1000_s    ? "_per_1000_s"
+                               : unit == ValueUnit::degree_per_km ? "_deg_per_km"
+                               : unit == ValueUnit::mm_per_h      ? "_mm_per_h"
+                                                                  : "_db";
     const auto value = [&](double ErrorSummary::*figure) {
         return row.value ? std::optional<double>((*row.value).*figure) : std::nullopt;
     };

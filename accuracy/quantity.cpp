@@ -18,7 +18,8 @@ constexpr double digit_slack = 1e-12;
 }  // namespace
 
 std::string_view name_of(ValueUnit unit) {
-    constexpr std::array<std::string_view, 5> names = {"dB", "m/s", "deg", "ratio", "0.001/s"};
+    constexpr std::array<std::string_view, 7> names = {"dB",      "m/s",    "deg", "ratio",
+                                                       "0.001/s", "deg/km", "mm/h"};
     return names[static_cast<std::size_t>(unit)];
 }
 

@@ -121,6 +121,18 @@ constexpr Anchor quality_anchors[] = {
     {0.55F, 0x7E8F70}, {0.75F, 0x8CC08A}, {1, 0xE4F6DA},
 };
 
+constexpr Anchor kdp_anchors[] = {
+    {-2, 0x14101F},   {-0.75F, 0x2C2347}, {-0.2F, 0x3F3F4C}, {0.2F, 0x4A5060}, {0.75F, 0x2F6FBE},
+    {1.5F, 0x2A93B8}, {2.5F, 0x3FBF8F},   {3.5F, 0x8CCB52},  {5, 0xE6CC36},    {8, 0xFFF4C8},
+};
+
+// Light rain is translucent on maps.
+constexpr Anchor rain_anchors[] = {
+    {0, 0x2C3550, 0}, {0.2F, 0x33436A, 0.3F}, {1, 0x3A5590, 0.8F}, {2.5F, 0x2F6FBE},
+    {6, 0x2A93B8},    {12, 0x3FBF8F},         {25, 0x8CCB52},      {50, 0xE6CC36},
+    {100, 0xFFEFA8},  {200, 0xFFFDF2},
+};
+
 constexpr Anchor phi_anchors[] = {
     {0, 0x3B2F7E},   {60, 0x2F7FD0},  {120, 0x4FBDBD}, {180, 0xEEF7CC},
     {240, 0xF0A83A}, {300, 0xB23A2E}, {360, 0x3B2F7E},
@@ -147,6 +159,8 @@ constexpr std::array smooth_tables{
     SmoothTable{"smooth-cfp", Moment::cfp, cfp_anchors, 60},
     SmoothTable{"smooth-shear", Moment::azsh, shear_anchors, 41, -40.0F},
     SmoothTable{"smooth-quality", Moment::pow, quality_anchors, 1.01F},
+    SmoothTable{"smooth-kdp", Moment::kdp, kdp_anchors, 8.1F, -2.0F},
+    SmoothTable{"smooth-rain", Moment::rate, rain_anchors, 101},
     SmoothTable{"smooth-clear-air", Moment::ref, clear_air_anchors, 55},
 };
 
@@ -230,6 +244,12 @@ std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
 std::vector<ExtinctionPoint> quality_extinction(float /*lowest*/) {
     return {{0, 0.02}, {0.5F, 0.04}, {1, 0.06}};
 }
+std::vector<ExtinctionPoint> kdp_extinction(float /*lowest*/) {
+    return {{0, 0.005}, {0.5F, 0.02}, {2, 0.3}, {5, 1.5}};
+}
+std::vector<ExtinctionPoint> rain_extinction(float /*lowest*/) {
+    return {{0, 0.001}, {2, 0.01}, {10, 0.06}, {50, 0.8}, {100, 2}};
+}
 std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
     return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
 }
@@ -250,6 +270,8 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
     {Moment::azsh, "Azimuthal shear", "smooth-shear", "smooth-shear", shear_extinction},
     {Moment::divg, "Radial divergence", "smooth-shear", "smooth-shear", shear_extinction},
     {Moment::pow, "Probability of weather", "smooth-quality", "smooth-quality", quality_extinction},
+    {Moment::kdp, "Specific differential phase", "smooth-kdp", "smooth-kdp", kdp_extinction},
+    {Moment::rate, "Rain rate", "smooth-rain", "smooth-rain", rain_extinction, true, true},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 

@@ -5,6 +5,7 @@
 //   smooth-phi, smooth-cfp
 //   smooth-shear        orange where counterclockwise or diverging, blue where the opposite,
 //                       lighter with strength
+//   smooth-kdp, smooth-rain
 //   smooth-quality      violet where the echo is no weather, green where it is
 //   smooth-clear-air    reflectivity from -30 dBZ, for insects, birds and dust
 // Colors change evenly from anchor to anchor in OKLab. The hues of smooth-reflectivity are familiar
@@ -16,7 +17,8 @@
 // For every kind of color vision the colors of two values differ by least_smooth_step or more
 // (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 0.005/s of
 // shear up to 0.02/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of RHO above 0.7, 60 degrees of
-// PHI, 15 dB of CFP, 0.3 of POW (tests/render/safe_tables_test.cpp). The stepped safe tables have
+// PHI, 15 dB of CFP, 0.3 of POW, 2 degrees/km of KDP, 40 mm/h of rain up to 100
+// (tests/render/safe_tables_test.cpp). The stepped safe tables have
 // this difference between neighboring classes, which are narrower.
 //
 // Threads   Pure.
@@ -59,7 +61,7 @@ struct MomentLook {
 //            given at every decibel from `lowest` to 80 dBZ.
 //   VEL      By speed: slow echo is a haze, so that jets and couplets stand out.
 //   AZSH     As VEL, by strength on both sides.
-//   SW, CFP  Rises with the value.
+//   SW, CFP, KDP, RATE  Rises with the value.
 //   ZDR      Hail and debris are faint, large drops dense.
 //   POW      A haze that is denser where weather is more probable.
 //   PHI      One faint haze, because no phase is "more" than another.

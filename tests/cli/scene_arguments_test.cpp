@@ -87,7 +87,7 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     add_scene_options(app, options);
     EXPECT_THAT(app.help(),
                 ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD, SRV, AZSH, "
-                                     "DIVG or POW"));
+                                     "DIVG, POW, KDP or RATE"));
 }
 
 TEST(SceneOptions, AProductOfOneMomentChoosesIt) {

@@ -266,7 +266,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
     EXPECT_EQ(
         complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
         "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
-        "CFP VELD SRV AZSH DIVG POW");
+        "CFP VELD SRV AZSH DIVG POW KDP RATE");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),

@@ -146,6 +146,8 @@ constexpr FarApart far_apart[] = {
     {"smooth-velocity", -40, 40, 10, 1},
     {"smooth-shear", -20, 20, 5, 0.5F},
     {"smooth-quality", 0, 1, 0.3F, 0.02F},
+    {"smooth-kdp", -2, 8, 2, 0.1F},
+    {"smooth-rain", 0, 100, 40, 1},
     {"smooth-spectrum-width", 0, 14, 4, 0.25F},
     {"smooth-zdr", -4, 6, 2, 0.1F},
     {"smooth-rho", 0.7F, 1, 0.1F, 0.01F},

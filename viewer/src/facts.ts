@@ -16,6 +16,8 @@ export const moments = {
     AZSH: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL' },
     DIVG: { unit: '0.001/s', isSigned: true, isDoppler: true, isDerived: true, measured: 'VEL', tables: 'AZSH' },
     POW: { unit: '1', isDerived: true, measured: 'REF' },
+    KDP: { unit: 'degree/km', isDerived: true, measured: 'PHI' },
+    RATE: { unit: 'mm/h', isDerived: true, measured: 'REF' },
 } as const;
 export const momentTitles = {
     REF: 'Reflectivity',
@@ -30,6 +32,8 @@ export const momentTitles = {
     AZSH: 'Azimuthal shear',
     DIVG: 'Radial divergence',
     POW: 'Probability of weather',
+    KDP: 'Specific differential phase',
+    RATE: 'Rain rate',
 } as const;
 
 // Units by quantity, the usual one first.

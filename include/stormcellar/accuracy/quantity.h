@@ -17,9 +17,10 @@
 namespace stormcellar::accuracy {
 
 // The unit of a moment's values: decibels for REF, ZDR and CFP, meters per second for VEL and SW,
-// degrees for PHI, a ratio for RHO, thousandths per second for AZSH and DIVG.
-enum class ValueUnit { db, mps, degree, ratio, per_1000_s };
-// Returns "dB", "m/s", "deg", "ratio" or "0.001/s".
+// degrees for PHI, a ratio for RHO and POW, thousandths per second for AZSH and DIVG, degrees per
+// kilometer for KDP, millimeters per hour for RATE.
+enum class ValueUnit { db, mps, degree, ratio, per_1000_s, degree_per_km, mm_per_h };
+// Returns "dB", "m/s", "deg", "ratio", "0.001/s", "deg/km" or "mm/h".
 [[nodiscard]] std::string_view name_of(ValueUnit unit);
 
 enum class Quantity { position, value, image };

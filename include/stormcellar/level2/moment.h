@@ -20,7 +20,22 @@
 namespace stormcellar::level2 {
 
 // Grid files hold these numbers, so do not change them; add a new moment at the end.
-enum class Moment : std::uint8_t { ref, vel, sw, zdr, phi, rho, cfp, veld, srv, azsh, divg, pow };
+enum class Moment : std::uint8_t {
+    ref,
+    vel,
+    sw,
+    zdr,
+    phi,
+    rho,
+    cfp,
+    veld,
+    srv,
+    azsh,
+    divg,
+    pow,
+    kdp,
+    rate
+};
 
 // The circle on which the values of a moment wrap around.
 enum class Circle : std::uint8_t {
@@ -138,6 +153,26 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      3,
      true,
      Moment::ref},
+    {Moment::kdp,
+     "KDP",
+     "degree/km",
+     {"specific differential phase", "", "specific_differential_phase_hv"},
+     Circle::none,
+     false,
+     false,
+     3,
+     true,
+     Moment::phi},
+    {Moment::rate,
+     "RATE",
+     "mm/h",
+     {"rain rate", "rainfall_rate", "radar_estimated_rain_rate"},
+     Circle::none,
+     false,
+     false,
+     3,
+     true,
+     Moment::ref},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 
@@ -185,7 +220,7 @@ inline constexpr std::array<Moment, moment_count> all_moments = [] {
 
 // Returns true if all measured moments help to derive the moment.
 [[nodiscard]] constexpr bool uses_all_moments(Moment moment) {
-    return facts_of(moment).is_derived && facts_of(moment).measured == Moment::ref;
+    return facts_of(moment).is_derived && facts_of(moment).measured != Moment::vel;
 }
 
 // Finds a moment by its name in upper case.
