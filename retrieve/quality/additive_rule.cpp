@@ -26,21 +26,25 @@ RuleTables::RuleTables(const AdditiveRule& rule) : constant_(rule.constant) {
         for (std::size_t step = 0; step < steps; ++step)
             table.log_odds[step] = interpolated(
                 term.knots, table.first + static_cast<float>(step) / table.steps_per_unit);
-        table.missing = term.missing;
+        table.log_odds[missing_step] = term.missing;
     }
 }
 
 void RuleTables::add(Feature feature, std::span<const float> values, float* log_odds) const {
     const Table& table = tables_[table_of_[static_cast<std::size_t>(feature)]];
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const float value = values[i];
-        if (value != value) {
-            log_odds[i] += table.missing;
-            continue;
+    // Compilers vectorize the first loop of a block, but not the search in the table.
+    std::array<std::int32_t, 256> places{};
+    for (std::size_t begin = 0; begin < values.size(); begin += places.size()) {
+        const std::size_t count = std::min(places.size(), values.size() - begin);
+        const float* from = values.data() + begin;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float step = (from[i] - table.first) * table.steps_per_unit + 0.5F;
+            const float low = step < most_step ? step : most_step;
+            const auto place = static_cast<std::int32_t>(low > 0 ? low : 0);
+            places[i] = from[i] == from[i] ? place : missing_step;
         }
-        const float step = (value - table.first) * table.steps_per_unit + 0.5F;
-        const float inside = std::clamp(step, 0.0F, static_cast<float>(steps - 1));
-        log_odds[i] += table.log_odds[static_cast<std::size_t>(inside)];
+        for (std::size_t i = 0; i < count; ++i)
+            log_odds[begin + i] += table.log_odds[static_cast<std::size_t>(places[i])];
     }
 }
 

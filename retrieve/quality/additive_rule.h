@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -47,10 +48,11 @@ class RuleTables {
 
   private:
     static constexpr std::size_t steps = 512;
+    static constexpr float most_step = steps - 1;
+    static constexpr std::int32_t missing_step = steps;
     struct Table {
         float first = 0, steps_per_unit = 0;
-        float missing = 0;
-        std::array<float, steps> log_odds{};
+        std::array<float, steps + 1> log_odds{};  // the last one is that of a missing value
     };
     float constant_;
     std::vector<Table> tables_;

@@ -19,10 +19,28 @@ bool ends_meet(const level2::Sweep& sweep) {
     return gap * static_cast<double>(radials) <= 2 * 360;
 }
 
-// Writes the numbers of a radial, each with one_number added, and 0 where there is none.
-using FillRow = std::function<void(std::size_t radial, std::uint32_t* numbers)>;
+// Writes the numbers of a radial, each with one_number added, and 0 where there is none. Returns
+// how many it wrote; the rest of the radial has no numbers.
+using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
 
-// Sums numbers over boxes, one radial after another.
+// Returns the number of gates up to the last one that has a value.
+std::size_t end_of_values(const std::uint16_t* codes, std::size_t gates) {
+    // Blocks without a value are skipped first, because compilers vectorize this loop.
+    constexpr std::size_t block = 64;
+    while (gates >= block) {
+        std::uint16_t any = 0;
+        for (std::size_t i = gates - block; i < gates; ++i)
+            any |= codes[i];
+        if (any != 0) break;
+        gates -= block;
+    }
+    while (gates > 0 && codes[gates - 1] == 0)
+        --gates;
+    return gates;
+}
+
+// Sums numbers over boxes, one radial after another. Most radials have values in their first part
+// only, so that each step ends where the sums of its radials become 0.
 class BoxSums {
   public:
     BoxSums(const GateField& field, const GateBox& box, const FillRow& fill)
@@ -31,7 +49,8 @@ class BoxSums {
           fill_(fill),
           padded_(field.gates + static_cast<std::size_t>(box.gates) - 1),
           total_(field.gates, 0),
-          rows_(static_cast<std::size_t>(box.radials) * field.gates, 0) {}
+          rows_(static_cast<std::size_t>(box.radials + 1) * field.gates, 0),
+          ends_(static_cast<std::size_t>(box.radials) + 1, 0) {}
 
     void visit(const SumVisitor& visit) {
         const int reach = box_.radials / 2;
@@ -46,57 +65,68 @@ class BoxSums {
   private:
     // Replaces the oldest radial of the box by the radial at a place, which may be beyond the ends.
     void take(int place) {
-        const int slot = (place + box_.radials) % box_.radials;
-        std::uint32_t* row = rows_.data() + static_cast<std::size_t>(slot) * field_.gates;
-        for (std::size_t gate = 0; gate < field_.gates; ++gate)
-            total_[gate] -= row[gate];
-        sum_radial(place, row);
-        for (std::size_t gate = 0; gate < field_.gates; ++gate)
-            total_[gate] += row[gate];
+        const int slots = box_.radials + 1;
+        const auto slot = static_cast<std::size_t>((place + slots) % slots);
+        const auto oldest = static_cast<std::size_t>((place + slots + 1) % slots);
+        std::uint32_t* row = rows_.data() + slot * field_.gates;
+        const std::uint32_t* old = rows_.data() + oldest * field_.gates;
+        ends_[slot] = sum_radial(place, row);
+        const std::size_t common = std::min(ends_[slot], ends_[oldest]);
+        std::uint32_t* total = total_.data();
+        for (std::size_t gate = 0; gate < common; ++gate)
+            total[gate] += row[gate] - old[gate];
+        for (std::size_t gate = common; gate < ends_[slot]; ++gate)
+            total[gate] += row[gate];
+        for (std::size_t gate = common; gate < ends_[oldest]; ++gate)
+            total[gate] -= old[gate];
     }
-    void sum_radial(int place, std::uint32_t* row) {
+    // Writes the sums along a radial. Returns the number of gates before the sums become 0.
+    std::size_t sum_radial(int place, std::uint32_t* row) {
         const int radials = static_cast<int>(field_.radials);
         if (place < 0 || place >= radials) {
-            if (!field_.is_circle || radials <= box_.radials) {
-                std::fill_n(row, field_.gates, 0U);
-                return;
-            }
+            if (!field_.is_circle || radials <= box_.radials) return 0;
             place = (place + radials) % radials;
         }
-        const auto half = static_cast<std::size_t>(box_.gates / 2);
-        std::fill_n(padded_.data(), half, 0U);
-        fill_(static_cast<std::size_t>(place), padded_.data() + half);
-        std::fill_n(padded_.data() + half + field_.gates, half, 0U);
-        sum_along(row);
+        const auto radial = static_cast<std::size_t>(place);
+        const std::size_t values = fill_(radial, padded_.data() + half());
+        if (values == 0) return 0;
+        const std::size_t end = std::min(values + half(), field_.gates);
+        std::fill_n(padded_.data(), half(), 0U);
+        std::fill_n(padded_.data() + half() + values, end + half() - values, 0U);
+        sum_along(row, end);
+        return end;
     }
     // Sums the padded numbers over the gates of the box. Doubles the length of the sums as often
     // as possible, and adds those that make up the length of the box.
-    void sum_along(std::uint32_t* row) {
+    void sum_along(std::uint32_t* row, std::size_t end) {
+        const std::size_t padded_end = end + 2 * half();
         std::size_t length = 1, begin = 0;
         bool is_first = true;
         for (auto left = static_cast<unsigned>(box_.gates);; left >>= 1U) {
             if ((left & 1U) != 0) {
                 const std::uint32_t* from = padded_.data() + begin;
                 if (is_first) {
-                    std::copy_n(from, field_.gates, row);
+                    std::copy_n(from, end, row);
                 } else {
-                    for (std::size_t gate = 0; gate < field_.gates; ++gate)
+                    for (std::size_t gate = 0; gate < end; ++gate)
                         row[gate] += from[gate];
                 }
                 is_first = false;
                 begin += length;
             }
             if (left <= 1) return;
-            for (std::size_t i = 0; i + length < padded_.size(); ++i)
+            for (std::size_t i = 0; i + length < padded_end; ++i)
                 padded_[i] += padded_[i + length];
             length *= 2;
         }
     }
+    [[nodiscard]] std::size_t half() const { return static_cast<std::size_t>(box_.gates / 2); }
 
     const GateField& field_;
     GateBox box_;
     const FillRow& fill_;
     std::vector<std::uint32_t> padded_, total_, rows_;
+    std::vector<std::size_t> ends_;  // of rows_
 };
 
 // Differences of codes, in whole codes.
@@ -156,10 +186,12 @@ void visit_code_sums(const GateField& field, const GateBox& box, const SumVisito
     const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
     const FillRow fill = [&](std::size_t radial, std::uint32_t* numbers) {
         const std::uint16_t* codes = field.row(radial);
-        for (std::size_t gate = 0; gate < field.gates; ++gate) {
+        const std::size_t end = end_of_values(codes, field.gates);
+        for (std::size_t gate = 0; gate < end; ++gate) {
             const std::uint32_t code = codes[gate];
             numbers[gate] = code != 0 ? one_number + std::min(code, most) : 0;
         }
+        return end;
     };
     BoxSums(field, box, fill).visit(visit);
 }
@@ -173,19 +205,20 @@ void visit_difference_sums(const GateField& field, const GateBox& box, Direction
     const Differ differ{way_round, most};
     const FillRow along_range = [&](std::size_t radial, std::uint32_t* numbers) {
         const std::uint16_t* codes = field.row(radial);
+        const std::size_t end = end_of_values(codes, field.gates);
         numbers[0] = 0;
-        for (std::size_t gate = 1; gate < field.gates; ++gate)
+        for (std::size_t gate = 1; gate < end; ++gate)
             numbers[gate] = differ.number(codes[gate], codes[gate - 1]);
+        return end;
     };
     const FillRow along_azimuth = [&](std::size_t radial, std::uint32_t* numbers) {
-        if (radial == 0 && !field.is_circle) {
-            std::fill_n(numbers, field.gates, 0U);
-            return;
-        }
+        if (radial == 0 && !field.is_circle) return std::size_t{0};
         const std::uint16_t* codes = field.row(radial);
         const std::uint16_t* before = field.row(radial == 0 ? field.radials - 1 : radial - 1);
-        for (std::size_t gate = 0; gate < field.gates; ++gate)
+        const std::size_t end = end_of_values(codes, field.gates);
+        for (std::size_t gate = 0; gate < end; ++gate)
             numbers[gate] = differ.number(codes[gate], before[gate]);
+        return end;
     };
     BoxSums(field, box, direction == Direction::range ? along_range : along_azimuth).visit(visit);
 }
