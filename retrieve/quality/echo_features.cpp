@@ -148,34 +148,45 @@ class FeatureMaker {
     // Sums of another sweep, kept until the radials of this sweep ask for them.
     class KeptSums {
       public:
-        explicit KeptSums(const GateField& field)
-            : gates_(field.gates), sums_(field.radials * field.gates) {}
+        // The memory serves one sum after another.
+        KeptSums(const GateField& field, std::vector<std::uint32_t>& memory)
+            : gates_(field.gates), sums_(memory) {
+            memory.resize(std::max(memory.size(), field.radials * field.gates));
+        }
         [[nodiscard]] SumVisitor keep() {
             return [this](std::size_t radial, const std::uint32_t* sums) {
                 std::copy_n(sums, gates_, sums_.data() + radial * gates_);
             };
         }
-        [[nodiscard]] BoxSum at(std::int32_t radial, std::int32_t gate) const {
-            return BoxSum(
-                sums_[static_cast<std::size_t>(radial) * gates_ + static_cast<std::size_t>(gate)]);
+        [[nodiscard]] const std::uint32_t* row(std::size_t radial) const {
+            return sums_.data() + radial * gates_;
         }
 
       private:
         std::size_t gates_;
-        std::vector<std::uint32_t> sums_;
+        std::vector<std::uint32_t>& sums_;
     };
-    template <class Value>
-    void visit_elsewhere(Feature feature, const Elsewhere& place, Value value) {
-        visit_all(feature, [&](std::size_t radial, std::uint32_t gate) {
+    // `row` returns the numbers of a radial elsewhere, and `value` the feature of such a number.
+    template <class Row, class Value>
+    void visit_elsewhere(Feature feature, const Elsewhere& place, Row row, Value value) {
+        for (std::size_t radial = 0; radial < field_.radials; ++radial) {
             const std::int32_t there = place.radials[radial];
-            return there >= 0 && place.gates[gate] >= 0 ? value(there, place.gates[gate]) : missing;
-        });
+            if (there < 0) {
+                visit_radial(feature, radial, [](std::uint32_t) { return missing; });
+                continue;
+            }
+            const auto* numbers = row(static_cast<std::size_t>(there));
+            visit_radial(feature, radial, [&](std::uint32_t gate) {
+                const std::int32_t at = place.gates[gate];
+                return at >= 0 ? value(numbers[at]) : missing;
+            });
+        }
     }
     template <class Value>
     void visit_sums(Feature feature, const Elsewhere& place, const KeptSums& sums, Value value) {
-        visit_elsewhere(feature, place, [&](std::int32_t radial, std::int32_t gate) {
-            return value(sums.at(radial, gate));
-        });
+        visit_elsewhere(
+            feature, place, [&](std::size_t radial) { return sums.row(radial); },
+            [&](std::uint32_t bits) { return value(BoxSum(bits)); });
     }
     void visit_above() {
         const auto above = sweep_above(volume_, sweep_number_);
@@ -183,7 +194,7 @@ class FeatureMaker {
         const level2::Sweep& sweep = volume_.sweeps[*above];
         const GateField field = gate_field(sweep, *sweep.find(Moment::ref));
         if (field.is_empty()) return visit_missing(Feature::reflectivity_above);
-        KeptSums sums(field);
+        KeptSums sums(field, kept_);
         visit_code_sums(field, gate_box(3, 1250, field), sums.keep());
         // The same place on the ground is at a longer range there.
         constexpr double radian = std::numbers::pi / 180;
@@ -207,12 +218,13 @@ class FeatureMaker {
         }
         const Elsewhere place{nearest_radials(azimuths_of(sweep_), *sweep),
                               gates_elsewhere(field_, velocity, 1)};
-        visit_elsewhere(Feature::speed, place, [&](std::int32_t radial, std::int32_t gate) {
-            return std::abs(
-                velocity.value(static_cast<std::size_t>(radial), static_cast<std::size_t>(gate)));
-        });
+        visit_elsewhere(
+            Feature::speed, place, [&](std::size_t radial) { return velocity.row(radial); },
+            [&](std::uint16_t code) {
+                return code != 0 ? std::abs(velocity.value_of(code)) : missing;
+            });
         const GateBox box = gate_box(3, 1750, velocity);
-        KeptSums sums(velocity);
+        KeptSums sums(velocity, kept_);
         visit_difference_sums(velocity, box, Direction::range,
                               2 * sweep->radials.front().nyquist_mps, sums.keep());
         visit_sums(Feature::speed_texture, place, sums, root_mean(velocity));
@@ -224,7 +236,7 @@ class FeatureMaker {
         const level2::SweepMoment* moment = sweep.find(Moment::sw);
         const GateField width = moment != nullptr ? gate_field(sweep, *moment) : GateField{};
         if (width.is_empty()) return visit_missing(Feature::width);
-        KeptSums sums(width);
+        KeptSums sums(width, kept_);
         visit_code_sums(width, gate_box(3, 1750, width), sums.keep());
         visit_sums(Feature::width, {radials, gates_elsewhere(field_, width, 1)}, sums, mean(width));
     }
@@ -236,6 +248,7 @@ class FeatureMaker {
     const EchoGates& echo_;
     const FeatureVisitor& visit_;
     std::vector<float> values_;
+    std::vector<std::uint32_t> kept_;
 };
 
 }  // namespace
@@ -256,10 +269,17 @@ std::string_view feature_name(Feature feature) {
 EchoGates::EchoGates(const GateField& field) : begins_(field.radials + 1, 0) {
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
         const std::uint16_t* codes = field.row(radial);
-        for (std::size_t gate = 0; gate < field.gates; ++gate)
-            if (codes[gate] != 0) gates_.push_back(static_cast<std::uint32_t>(gate));
-        begins_[radial + 1] = gates_.size();
+        const std::size_t end = field.end_of_values(radial);
+        std::size_t count = begins_[radial];
+        gates_.resize(std::max(gates_.size(), count + end));
+        // Whether a gate has echo is hard to predict, so that each gate is written.
+        for (std::size_t gate = 0; gate < end; ++gate) {
+            gates_[count] = static_cast<std::uint32_t>(gate);
+            count += codes[gate] != 0 ? 1 : 0;
+        }
+        begins_[radial + 1] = count;
     }
+    gates_.resize(begins_.back());
 }
 
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,

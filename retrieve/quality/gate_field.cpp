@@ -23,22 +23,6 @@ bool ends_meet(const level2::Sweep& sweep) {
 // how many it wrote; the rest of the radial has no numbers.
 using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
 
-// Returns the number of gates up to the last one that has a value.
-std::size_t end_of_values(const std::uint16_t* codes, std::size_t gates) {
-    // Blocks without a value are skipped first, because compilers vectorize this loop.
-    constexpr std::size_t block = 64;
-    while (gates >= block) {
-        std::uint16_t any = 0;
-        for (std::size_t i = gates - block; i < gates; ++i)
-            any |= codes[i];
-        if (any != 0) break;
-        gates -= block;
-    }
-    while (gates > 0 && codes[gates - 1] == 0)
-        --gates;
-    return gates;
-}
-
 // Sums numbers over boxes, one radial after another. Most radials have values in their first part
 // only, so that each step ends where the sums of its radials become 0.
 class BoxSums {
@@ -149,6 +133,23 @@ std::int32_t GateField::gate_at(double range_m) const {
     return gate >= 0 && gate < static_cast<double>(gates) ? static_cast<std::int32_t>(gate) : -1;
 }
 
+std::size_t GateField::end_of_values(std::size_t radial) const {
+    const std::uint16_t* of_radial = row(radial);
+    std::size_t end = gates;
+    // Skips blocks without a value first, because compilers vectorize this loop.
+    constexpr std::size_t block = 64;
+    while (end >= block) {
+        std::uint16_t any = 0;
+        for (std::size_t gate = end - block; gate < end; ++gate)
+            any |= of_radial[gate];
+        if (any != 0) break;
+        end -= block;
+    }
+    while (end > 0 && of_radial[end - 1] == 0)
+        --end;
+    return end;
+}
+
 GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment) {
     GateField field;
     if (moment.gate_spacing_m <= 0 || moment.gate_stride <= 0) return field;
@@ -183,13 +184,14 @@ GateBox gate_box(int radials, double length_m, const GateField& field) {
 }
 
 void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit) {
-    const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
+    const auto most = static_cast<std::int32_t>(BoxSum::most_sum) / box.size();
     const FillRow fill = [&](std::size_t radial, std::uint32_t* numbers) {
         const std::uint16_t* codes = field.row(radial);
-        const std::size_t end = end_of_values(codes, field.gates);
+        const std::size_t end = field.end_of_values(radial);
         for (std::size_t gate = 0; gate < end; ++gate) {
-            const std::uint32_t code = codes[gate];
-            numbers[gate] = code != 0 ? one_number + std::min(code, most) : 0;
+            const std::int32_t code = codes[gate];
+            const auto number = static_cast<std::uint32_t>(std::min(code, most));
+            numbers[gate] = code != 0 ? one_number + number : 0;
         }
         return end;
     };
@@ -205,7 +207,7 @@ void visit_difference_sums(const GateField& field, const GateBox& box, Direction
     const Differ differ{way_round, most};
     const FillRow along_range = [&](std::size_t radial, std::uint32_t* numbers) {
         const std::uint16_t* codes = field.row(radial);
-        const std::size_t end = end_of_values(codes, field.gates);
+        const std::size_t end = field.end_of_values(radial);
         numbers[0] = 0;
         for (std::size_t gate = 1; gate < end; ++gate)
             numbers[gate] = differ.number(codes[gate], codes[gate - 1]);
@@ -215,7 +217,7 @@ void visit_difference_sums(const GateField& field, const GateBox& box, Direction
         if (radial == 0 && !field.is_circle) return std::size_t{0};
         const std::uint16_t* codes = field.row(radial);
         const std::uint16_t* before = field.row(radial == 0 ? field.radials - 1 : radial - 1);
-        const std::size_t end = end_of_values(codes, field.gates);
+        const std::size_t end = field.end_of_values(radial);
         for (std::size_t gate = 0; gate < end; ++gate)
             numbers[gate] = differ.number(codes[gate], before[gate]);
         return end;

@@ -38,6 +38,8 @@ struct GateField {
     // Returns the number of the gate at a range, or -1 if the range is outside the field.
     [[nodiscard]] std::int32_t gate_at(double range_m) const;
     [[nodiscard]] float value_of(float code) const { return (code - offset) / scale; }
+    // Returns the number of gates of a radial up to the last one that has a value.
+    [[nodiscard]] std::size_t end_of_values(std::size_t radial) const;
     // Returns NaN if there is no value.
     [[nodiscard]] float value(std::size_t radial, std::size_t gate) const {
         const std::uint16_t code = row(radial)[gate];
@@ -65,11 +67,14 @@ class BoxSum {
     static constexpr std::uint32_t most_sum = (1U << sum_bits) - 1;
     explicit BoxSum(std::uint32_t bits) : bits_(bits) {}
 
-    [[nodiscard]] float count() const { return static_cast<float>(bits_ >> sum_bits); }
+    // Conversions from signed integers are faster.
+    [[nodiscard]] float count() const {
+        return static_cast<float>(static_cast<std::int32_t>(bits_ >> sum_bits));
+    }
     // Returns NaN if there are no numbers.
     [[nodiscard]] float mean() const {
-        return bits_ != 0 ? static_cast<float>(bits_ & most_sum) / count()
-                          : std::numeric_limits<float>::quiet_NaN();
+        const auto sum = static_cast<float>(static_cast<std::int32_t>(bits_ & most_sum));
+        return bits_ != 0 ? sum / count() : std::numeric_limits<float>::quiet_NaN();
     }
 
   private:
