@@ -183,6 +183,7 @@ void read_grid(TomlTable& ingest, GridConfig& config) {
     if (config.threads == 0) config.threads = processors();
     read_moments(ingest, config);
     read_dealiasing(ingest, config);
+    if (const auto quality = ingest.number("quality", {0, 1})) config.quality = *quality;
     read_size(ingest, config);
     read_levels(ingest, config);
     check_grid(ingest, config);

@@ -63,6 +63,7 @@ struct PathsConfig {
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;  // for derived moments
+    double quality = 0;  // the least probability of weather of gridded echo; 0: all echo
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32

@@ -52,6 +52,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     pipeline::IngestOptions options;
     options.moments = config.grid.moments;
     options.derived.dealiasing = config.grid.dealiasing;
+    options.derived.quality = config.grid.quality;
     options.spacing_m = config.grid.spacing_m;
     options.nx = config.grid.nx;
     options.ny = config.grid.ny;

@@ -199,15 +199,15 @@ void ChunkVolume::shelve(const level2::Sweep& sweep) {
     const auto place = kept_->shelf->put(sweep);
     if (!place) return;
     const std::size_t cut = cut_of(sweep);
-    const MomentSet moments = moments_in(sweep, moments_);
+    const ShelvedVolume::Kept kept(sweep, moments_);
     kept_->places.insert_or_assign(cut, *place);
     radial_counts_.insert_or_assign(cut, sweep.radials.size());
     for (const level2::Radial& radial : sweep.radials) {
         if (level2::is_time_of_volume(radial.time, kept_->facts.start_time()))
             newest_radial_ = std::max(newest_radial_.value_or(radial.time), radial.time);
     }
-    kept_->sweeps.insert_or_assign(cut, ShelvedVolume::Kept{moments, sweep.mean_elevation_deg()});
-    if (moments.any()) news_.add(moments, kept_->is_lowest(sweep.mean_elevation_deg()));
+    kept_->sweeps.insert_or_assign(cut, kept);
+    if (kept.moments.any()) news_.add(kept.moments, kept_->is_lowest(kept.elevation_deg));
 }
 
 void ChunkVolume::keep_dealiased(const level2::Volume& dealiased) {

@@ -114,6 +114,12 @@ MomentSet moments_in(const level2::Sweep& sweep, const std::vector<level2::Momen
     return found;
 }
 
+ShelvedVolume::Kept::Kept(const level2::Sweep& sweep, const std::vector<level2::Moment>& gridded)
+    : moments(moments_in(sweep, gridded)), elevation_deg(sweep.mean_elevation_deg()) {
+    for (const level2::SweepMoment& moment : sweep.moments)
+        measured.set(static_cast<std::size_t>(moment.moment));
+}
+
 bool ShelvedVolume::is_lowest(double elevation_deg) const {
     return std::none_of(sweeps.begin(), sweeps.end(), [&](const auto& entry) {
         return entry.second.moments.any() &&
@@ -233,16 +239,15 @@ Status FollowedFile::shelve_new_sweeps() {
         const auto place = kept_->shelf->put(live.sweep);
         if (!place) return pass_on(place);
         kept_->places.insert_or_assign(live.index, *place);
-        const MomentSet moments = moments_in(live.sweep, moments_);
-        kept_->sweeps.insert_or_assign(
-            live.index, ShelvedVolume::Kept{moments, live.sweep.mean_elevation_deg()});
+        const ShelvedVolume::Kept kept(live.sweep, moments_);
+        kept_->sweeps.insert_or_assign(live.index, kept);
         std::size_t& radials = radials_of_[live.index];
         radials_ += live.sweep.radials.size() - radials;
         radials = live.sweep.radials.size();
         if (level2::is_plausible(live.sweep.radials.back().time)) {
             newest_ = std::max(newest_.value_or(UtcTime{}), live.sweep.radials.back().time);
         }
-        if (moments.any()) news_.add(moments, kept_->is_lowest(live.sweep.mean_elevation_deg()));
+        if (kept.moments.any()) news_.add(kept.moments, kept_->is_lowest(kept.elevation_deg));
         if (live.index < dropped_) growing_.drop_sweep(live.index);
     }
     for (; dropped_ < growing_.droppable_sweeps(); ++dropped_) {
@@ -293,8 +298,7 @@ Result<level2::Decoded> FollowedFile::finish() {
         const auto place = kept_->shelf->put(sweep);
         if (!place) break;  // living grids of the next volume will lack these sweeps
         kept_->places.insert_or_assign(index, *place);
-        kept_->sweeps.insert_or_assign(
-            index, ShelvedVolume::Kept{moments_in(sweep, moments_), sweep.mean_elevation_deg()});
+        kept_->sweeps.insert_or_assign(index, ShelvedVolume::Kept(sweep, moments_));
     }
     return decoded;
 }

@@ -22,7 +22,7 @@
 
 #include "base/checksum.h"
 #include "pipeline/ingest/growing_set.h"
-#include "pipeline/keep/dealiased_sweeps.h"
+#include "pipeline/keep/derived_sweeps.h"
 #include "pipeline/keep/sweep_shelf.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/growing_volume.h"
@@ -48,12 +48,18 @@ struct ShelvedVolume {
     using SweepKey = std::size_t;
     std::map<SweepKey, SweepShelf::Place> places;  // where each sweep is on the shelf
     struct Kept {
+        // Describes a sweep of which these moments are gridded.
+        Kept(const level2::Sweep& sweep, const std::vector<level2::Moment>& gridded);
         MomentSet moments;         // those of the gridded moments that the sweep has
+        MomentSet measured;        // all moments that the sweep has
         double elevation_deg = 0;  // mean of its radials
     };
     std::map<SweepKey, Kept> sweeps;
     // The velocities of these sweeps, dealiased for living grids, or with the final grid.
-    mutable DealiasedSweeps dealiased;
+    mutable DerivedSweeps dealiased;
+    // The gridded moments of these sweeps without echo that is probably no weather, for living
+    // grids.
+    mutable DerivedSweeps weather;
 
     // Keeps the VELD of the sweep with this key, if it is the sweep on the shelf.
     void keep_dealiased(SweepKey key, const level2::Sweep& sweep);

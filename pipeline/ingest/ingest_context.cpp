@@ -25,9 +25,15 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     return moments;
 }
 
+// Returns the moments to decode. Echo is judged by all moments.
+level2::Selection selection_of(const IngestOptions& options) {
+    if (options.derived.quality > 0) return {};
+    return {moments_of(options), {}};
+}
+
 FollowedFile::Options follow_options(const IngestOptions& options) {
     return {
-        .selection = {moments_of(options), {}},
+        .selection = selection_of(options),
         .moments = options.moments,
         .fallback_station = {},
         .scratch = options.living.scratch,
@@ -38,7 +44,9 @@ FollowedFile::Options follow_options(const IngestOptions& options) {
 }
 
 GrowingLimits file_limits(const IngestOptions& options) {
-    GrowingLimits limits = GrowingLimits::of(moments_of(options).size());
+    const level2::Selection selection = selection_of(options);
+    GrowingLimits limits = GrowingLimits::of(
+        selection.moments.empty() ? std::size(level2::all_moments) : selection.moments.size());
     limits.shelf_bytes = options.living.shelf_bytes;
     limits.count = options.living.count;
     limits.station_shelf_bytes = limits.shelf_bytes / 8;
@@ -79,7 +87,7 @@ level2::DecodeOptions IngestContext::decode_options_for(const std::string& stati
     level2::DecodeOptions decode_options;
     decode_options.threads = share_of(options.decode_threads);
     decode_options.output_limit_bytes = options.most_output_bytes;
-    decode_options.selection = {moments_of(options), {}};
+    decode_options.selection = selection_of(options);
     decode_options.array_limit_bytes = most_array_bytes(decode_options.selection);
     decode_options.fallback_station = station;
     return decode_options;

@@ -4,9 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
-
-#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -39,6 +38,37 @@ void add_nearest_dealiased(const ShelvedVolume& from, SweepKey end, double eleva
     }
 }
 
+// Returns the sweep by which another sweep of its angle is judged: the newest before it with
+// dual polarization, or else with reflectivity. None if the sweep has dual polarization itself.
+std::optional<SweepKey> judging_sweep(const ShelvedVolume& from, SweepKey key) {
+    const auto has = [](const ShelvedVolume::Kept& kept, level2::Moment moment) {
+        return kept.measured.test(static_cast<std::size_t>(moment));
+    };
+    const ShelvedVolume::Kept& judged = from.sweeps.at(key);
+    std::optional<SweepKey> newest;
+    if (has(judged, level2::Moment::rho)) return newest;
+    bool is_dual = false;
+    for (auto kept = from.sweeps.begin(); kept != from.sweeps.lower_bound(key); ++kept) {
+        const auto& [other, facts] = *kept;
+        if (std::abs(facts.elevation_deg - judged.elevation_deg) >= same_elevation_deg) continue;
+        const bool judges_better = has(facts, level2::Moment::rho);
+        if (!judges_better && (is_dual || !has(facts, level2::Moment::ref))) continue;
+        newest = other;
+        is_dual = judges_better;
+    }
+    return newest;
+}
+
+// Removes the moments that are neither gridded nor needed for gridded ones.
+void keep_gridded(level2::Sweep& sweep, MomentSet gridded) {
+    std::erase_if(sweep.moments, [&](const level2::SweepMoment& kind) {
+        return std::ranges::none_of(level2::all_moments, [&](level2::Moment moment) {
+            return gridded.test(static_cast<std::size_t>(moment)) &&
+                   level2::measured_moment(moment) == kind.moment;
+        });
+    });
+}
+
 // Returns `last` if the growing volume follows it within 20 minutes.
 const ShelvedVolume* recent(const ShelvedVolume& growing, const ShelvedVolume* last) {
     const auto start = growing.facts.start_time();
@@ -50,18 +80,37 @@ const ShelvedVolume* recent(const ShelvedVolume& growing, const ShelvedVolume* l
 
 }  // namespace
 
+Result<level2::Sweep> LivingSweeps::wanted_echo(const ShelvedVolume& from, SweepKey key) const {
+    const SweepShelf::Place& place = from.places.at(key);
+    if (options_.quality <= 0) return from.shelf->get(place);
+    if (auto kept = from.weather.find(*from.shelf, key, place)) return std::move(*kept);
+    auto sweep = from.shelf->get(place);
+    if (!sweep) return sweep;
+    std::vector<level2::Sweep> others;
+    if (const auto judging = judging_sweep(from, key)) {
+        auto other = from.shelf->get(from.places.at(*judging));
+        if (!other) return other;
+        others.push_back(std::move(*other));
+    }
+    const retrieve::LeftOutEcho left_out = retrieve::keep_weather(*sweep, others, options_.quality);
+    keep_gridded(*sweep, from.sweeps.at(key).moments);
+    // Without space on the shelf, the next living grid judges the sweep again.
+    (void)from.weather.keep(*from.shelf, key, place, *sweep, left_out);
+    return sweep;
+}
+
 Result<level2::Sweep> LivingSweeps::dealiased_sweep(const ShelvedVolume& from, SweepKey key,
                                                     const ShelvedVolume* last) {
     const SweepShelf::Place& place = from.places.at(key);
     if (auto kept = from.dealiased.find(*from.shelf, key, place)) return std::move(*kept);
-    const auto received = from.shelf->get(place);
+    const auto received = wanted_echo(from, key);
     if (!received) return pass_on(received);
     const double elevation_deg = received->mean_elevation_deg();
     std::vector<level2::Sweep> known;
     add_nearest_dealiased(from, key, elevation_deg, known);
     if (last != nullptr && !last->sweeps.empty())
         add_nearest_dealiased(*last, last->sweeps.rbegin()->first + 1, elevation_deg, known);
-    level2::Sweep made = retrieve::dealiased_sweep(*received, dealiasing_, known);
+    level2::Sweep made = retrieve::dealiased_sweep(*received, options_.dealiasing, known);
     ++dealiased_;
     // Without space on the shelf, the next living grid dealiases the sweep again.
     (void)from.dealiased.keep(*from.shelf, key, place, made);
@@ -72,21 +121,22 @@ Status LivingSweeps::add(const ShelvedVolume& from, SweepKey key, MomentSet mome
                          const ShelvedVolume* last) {
     const MomentSet derived = moments & dealiased_moments(), measured = moments & ~derived;
     if (measured.any()) {
-        auto sweep = from.shelf->get(from.places.at(key));
+        auto sweep = wanted_echo(from, key);
         if (!sweep) return pass_on(sweep);
-        sweeps_.push_back({std::move(*sweep), measured, stands});
+        sweeps_.push_back({std::move(*sweep), measured, stands, from.weather.left_out(key)});
     }
     if (derived.any()) {
         auto sweep = dealiased_sweep(from, key, last);
         if (!sweep) return pass_on(sweep);
-        sweeps_.push_back({std::move(*sweep), derived, stands});
+        sweeps_.push_back({std::move(*sweep), derived, stands, from.weather.left_out(key)});
     }
     return {};
 }
 
 Result<LivingSweeps> LivingSweeps::read(const ShelvedVolume& growing, const ShelvedVolume* last,
-                                        MomentSet moments, retrieve::Dealiasing dealiasing) {
-    LivingSweeps read(dealiasing);
+                                        MomentSet moments,
+                                        const retrieve::DerivedOptions& options) {
+    LivingSweeps read(options);
     read.volume_ = growing.facts;
     last = recent(growing, last);
     // Returns the moments that a new sweep near this elevation has.
@@ -119,11 +169,13 @@ level2::Volume& LivingSweeps::volume_of(level2::Moment moment) {
     lent_.clear();
     volume_.sweeps.clear();
     standing_ = 0;
+    left_out_ = {};
     for (std::size_t i = 0; i < sweeps_.size(); ++i) {
         One& one = sweeps_[i];
         if (!one.moments.test(static_cast<std::size_t>(moment))) continue;
         volume_.sweeps.push_back(std::move(one.sweep));
         lent_.push_back(i);
+        left_out_ += one.left_out;
         if (one.stands) ++standing_;
     }
     return volume_;

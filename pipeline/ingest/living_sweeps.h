@@ -8,6 +8,11 @@
 // (stormcellar/retrieve/dealias.h; a sweep that follows a wrong one can differ more). Sweeps of the
 // last volume are those of its final VELD.
 //
+// Echo that is probably no weather is left out sweep by sweep, too (DerivedOptions::quality). A
+// sweep with dual polarization is judged by itself, and another by the sweep of its angle that came
+// before it. These sweeps are the same in the final grid. Without dual polarization, a growing
+// volume lacks the sweep above, and the velocities of a surveillance cut.
+//
 // Threads   One thread at a time.
 #pragma once
 
@@ -16,7 +21,7 @@
 #include <vector>
 
 #include "pipeline/ingest/followed_file.h"
-#include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::pipeline {
 
@@ -29,7 +34,7 @@ class LivingSweeps {
     // shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments,
-                                                   retrieve::Dealiasing dealiasing);
+                                                   const retrieve::DerivedOptions& options);
 
     // Returns the growing volume's sweeps that have the moment, preceded by the last volume's
     // sweeps that have it and whose elevation has not come again (within 0.2 degrees). Because only
@@ -40,6 +45,8 @@ class LivingSweeps {
     [[nodiscard]] level2::Volume& volume_of(level2::Moment moment);
     // Returns how many sweeps of the last result of volume_of() are from the last volume.
     [[nodiscard]] std::size_t standing() const { return standing_; }
+    // Returns the echo that was left out of these sweeps.
+    [[nodiscard]] const retrieve::LeftOutEcho& left_out() const { return left_out_; }
     // Returns how many sweeps read() has dealiased.
     [[nodiscard]] int dealiased() const { return dealiased_; }
 
@@ -48,21 +55,26 @@ class LivingSweeps {
         level2::Sweep sweep;
         MomentSet moments;    // moments for which the sweep counts
         bool stands = false;  // the sweep is from the last volume
+        retrieve::LeftOutEcho left_out;
     };
-    explicit LivingSweeps(retrieve::Dealiasing dealiasing) : dealiasing_(dealiasing) {}
+    explicit LivingSweeps(const retrieve::DerivedOptions& options) : options_(options) {}
     // Adds a sweep of the growing volume, or with `stands`, of the last volume. `last` anchors it.
     Status add(const ShelvedVolume& from, ShelvedVolume::SweepKey key, MomentSet moments,
                bool stands, const ShelvedVolume* last);
+    // Returns the sweep without the echo that is to be left out.
+    [[nodiscard]] Result<level2::Sweep> wanted_echo(const ShelvedVolume& from,
+                                                    ShelvedVolume::SweepKey key) const;
     [[nodiscard]] Result<level2::Sweep> dealiased_sweep(const ShelvedVolume& from,
                                                         ShelvedVolume::SweepKey key,
                                                         const ShelvedVolume* last);
 
-    retrieve::Dealiasing dealiasing_;
+    retrieve::DerivedOptions options_;
     int dealiased_ = 0;
     std::vector<One> sweeps_;        // in the order of the volume
     std::vector<std::size_t> lent_;  // indices of the sweeps that are in volume_ now
     level2::Volume volume_;
     std::size_t standing_ = 0;
+    retrieve::LeftOutEcho left_out_;
 };
 
 }  // namespace stormcellar::pipeline

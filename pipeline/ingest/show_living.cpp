@@ -24,7 +24,7 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
     }
     const auto last = context.living->last_of(kept.facts.station);
     const auto start = std::chrono::steady_clock::now();
-    auto sweeps = LivingSweeps::read(kept, last.get(), news.moments, options.derived.dealiasing);
+    auto sweeps = LivingSweeps::read(kept, last.get(), news.moments, options.derived);
     if (!sweeps) return true;
     outcome.dealiased_sweeps += sweeps->dealiased();
     outcome.grid_s += seconds_since(start);
@@ -40,6 +40,9 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
         source.notes.push_back(fmt::format("{}{} sweeps have come, {} of the last volume stand",
                                            living_note, volume.sweeps.size() - sweeps->standing(),
                                            sweeps->standing()));
+        if (options.derived.quality > 0)
+            source.notes.push_back(
+                retrieve::weather_note(options.derived.quality, sweeps->left_out()));
         if (level2::is_dealiased(moment)) {
             auto notes = retrieve::add_from_dealiased(volume, moment, options.derived);
             if (!notes) {

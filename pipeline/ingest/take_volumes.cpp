@@ -9,6 +9,7 @@
 #include "base/steady_time.h"
 #include "level2/decode/volume_checks.h"
 #include "level2/messages/message_2.h"
+#include "retrieve/derived/quality_moment.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -44,7 +45,7 @@ constexpr std::string_view lone_chunk_text =
 
 Result<IngestOutcome> TakeVolumes::take(level2::Decoded decoded, MayBePartial partial) {
     note(decoded);
-    const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
+    std::vector<level2::Volume> volumes = level2::split_volumes(std::move(decoded));
     if (volumes.size() != 1) use_dealiased_ = nullptr;
     if (volumes.size() > most_volumes) {
         return reject(ErrorCode::unsupported,
@@ -136,9 +137,9 @@ Result<IngestOutcome> TakeVolumes::settle() {
 
 // Grids the volumes, and only then settles the row in the catalog. So the file is gridded again
 // after a crash.
-Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& volumes) {
+Result<IngestOutcome> TakeVolumes::grid_all(std::vector<level2::Volume>& volumes) {
     bool has_other_station = false;
-    for (const level2::Volume& volume : volumes) {
+    for (level2::Volume& volume : volumes) {
         if (!volume.station.empty() && context_.taken_station(volume.station).empty()) {
             has_other_station = true;
             continue;
@@ -146,11 +147,12 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
         if (!volume.start_time()) {
             return reject(ErrorCode::corrupt, "cannot be gridded: it holds no plausible time");
         }
-        if (const Status gridded = grid(volume); !gridded) {
+        const std::vector<std::string> notes = keep_wanted_echo(volume);
+        if (const Status gridded = grid(volume, notes); !gridded) {
             if (gridded.error().cause() != Cause::data) return pass_on(gridded);
             return reject(gridded.error().code, "cannot be gridded: " + gridded.error().message);
         }
-        if (const Status kept = keep_mosaics(volume); !kept) return pass_on(kept);
+        if (const Status kept = keep_mosaics(volume, notes); !kept) return pass_on(kept);
     }
     const bool has_part = !context_.options.own_grids && !outcome_.partials.empty();
     if (!outcome_.grids.empty() || has_part || outcome_.not_kept > 0) {
@@ -161,8 +163,17 @@ Result<IngestOutcome> TakeVolumes::grid_all(const std::vector<level2::Volume>& v
     return settle();
 }
 
+std::vector<std::string> TakeVolumes::keep_wanted_echo(level2::Volume& volume) {
+    const double least = context_.options.derived.quality;
+    if (least <= 0) return {};
+    const auto start = std::chrono::steady_clock::now();
+    const retrieve::LeftOutEcho left_out = retrieve::keep_weather(volume, least);
+    outcome_.grid_s += seconds_since(start);
+    return {retrieve::weather_note(least, left_out)};
+}
+
 // Makes the site's own grids, if these are made at all and the volume has one of the moments.
-Status TakeVolumes::grid(const level2::Volume& volume) {
+Status TakeVolumes::grid(const level2::Volume& volume, const std::vector<std::string>& notes) {
     if (!context_.options.own_grids) {
         (void)SiteGrids::has_place(volume, outcome_);
         return {};
@@ -174,14 +185,15 @@ Status TakeVolumes::grid(const level2::Volume& volume) {
     const auto rival = has_rival(volume);
     if (!rival) return pass_on(rival);
     const GridSource source{facts_.path.filename().string(), is_partial(volume), *rival,
-                            troubles_of(volume.station)};
+                            troubles_of(volume.station), notes};
     return context_.site_grids->keep(
         volume, source, context_.share_of(context_.options.grid_threads), outcome_, use_dealiased_);
 }
 
 // Makes partials and frames. If a domain cannot use the volume, does not reject the file, because
 // the site's own grid is stored.
-Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
+Status TakeVolumes::keep_mosaics(const level2::Volume& volume,
+                                 const std::vector<std::string>& notes) {
     const auto antenna = level2::antenna_position(volume);
     if (context_.mosaics.is_idle() || !antenna || volume.station.empty()) return {};
     const grid::SitePosition site{volume.station, antenna->latitude_deg, antenna->longitude_deg,
@@ -193,6 +205,7 @@ Status TakeVolumes::keep_mosaics(const level2::Volume& volume) {
     source.partial = is_partial(volume);
     source.radar_troubles = troubles_of(site.icao);
     if (antenna->disagreement) source.notes.push_back(*antenna->disagreement);
+    source.notes.insert(source.notes.end(), notes.begin(), notes.end());
     const auto start = std::chrono::steady_clock::now();
     const auto kept =
         context_.mosaics.take_in(source, context_.share_of(context_.options.grid_threads));

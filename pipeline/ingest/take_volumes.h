@@ -48,9 +48,12 @@ class TakeVolumes {
     [[nodiscard]] Result<bool> has_rival(const level2::Volume& volume) const;
     Result<IngestOutcome> reject(ErrorCode code, std::string why);
     Result<IngestOutcome> settle();
-    Result<IngestOutcome> grid_all(const std::vector<level2::Volume>& volumes);
-    Status grid(const level2::Volume& volume);
-    Status keep_mosaics(const level2::Volume& volume);
+    Result<IngestOutcome> grid_all(std::vector<level2::Volume>& volumes);
+    // Leaves out echo that is probably no weather, if the options say so, and returns the notes for
+    // grids of the volume.
+    std::vector<std::string> keep_wanted_echo(level2::Volume& volume);
+    Status grid(const level2::Volume& volume, const std::vector<std::string>& notes);
+    Status keep_mosaics(const level2::Volume& volume, const std::vector<std::string>& notes);
 
     IngestContext& context_;
     catalog::FileFacts facts_;

@@ -147,20 +147,20 @@ Result<SiteGrids::UsedVolume> SiteGrids::used_volume(const level2::Volume& measu
         return UsedVolume{};
     };
     if (!level2::is_dealiased(moment)) {
-        auto made = retrieve::derived_velocities(measured, std::array{moment}, options_.derived);
+        auto made = retrieve::derived_velocities(measured, std::array{moment}, derived_);
         if (!made) return give_up(made.error());
         judged = std::move(made->volume);
         used.volume = &*judged;
         return used;
     }
     if (!dealiased) {
-        auto made = retrieve::derived_velocities(measured, std::array{level2::Moment::veld},
-                                                 options_.derived);
+        auto made =
+            retrieve::derived_velocities(measured, std::array{level2::Moment::veld}, derived_);
         if (!made) return give_up(made.error());
         dealiased = std::move(made->volume);
     }
     used.volume = &*dealiased;
-    const auto notes = retrieve::add_from_dealiased(*dealiased, moment, options_.derived);
+    const auto notes = retrieve::add_from_dealiased(*dealiased, moment, derived_);
     if (!notes) return give_up(notes.error());
     used.source.notes.insert(used.source.notes.end(), notes->begin(), notes->end());
     return used;

@@ -34,13 +34,16 @@ struct GridSource {
 class SiteGrids {
   public:
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
-        : store_(store), options_(options) {}
+        : store_(store), options_(options), derived_(options.derived) {
+        derived_.quality = 0;  // volumes come without that echo
+    }
 
     // Returns true if the volume has a station and the radar's position is known. Otherwise notes
     // in the outcome which of them is missing.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids each of the moments that the volume holds, audits the grids, and commits them. Drops a
+    // Grids each of the moments that the volume holds (without the echo that is to be left out,
+    // which the caller has removed), audits the grids, and commits them. Drops a
     // new grid if a better one exists (pipeline/keep/keep_rule.h) or the cache's budgets do not
     // keep it; the outcome says so. The outcome also says why a moment cannot be derived, for
     // example SRV if the wind profile is too short. Adds to the outcome the times, and the paths of
@@ -82,6 +85,7 @@ class SiteGrids {
 
     cache::StoreWriter& store_;
     const IngestOptions& options_;
+    retrieve::DerivedOptions derived_;
     // Number of geometries that are kept. The geometry of the default grid takes a few MiB.
     static constexpr std::size_t kept_geometries = 16;
     GeometryCache geometries_{kept_geometries};

@@ -154,7 +154,9 @@ std::string motion_choices() {
 Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Moment> wanted,
                                     const DerivedOptions& options) {
     Derived derived;
-    if (options.quality > 0) derived.notes.push_back(keep_weather(volume, options.quality));
+    if (options.quality > 0)
+        derived.notes.push_back(
+            weather_note(options.quality, keep_weather(volume, options.quality)));
     for (level2::Sweep& sweep : volume.sweeps)
         std::erase_if(sweep.moments, [](const SweepMoment& kind) {
             return level2::facts_of(kind.moment).is_derived;

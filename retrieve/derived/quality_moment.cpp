@@ -61,18 +61,7 @@ class WeatherKeeper {
           qualities_(weather_probabilities(volume)),
           least_(static_cast<float>(least)) {}
 
-    // Returns the share of reflectivity gates with echo that are removed.
-    double keep() {
-        for (std::size_t sweep = 0; sweep < volume_.sweeps.size(); ++sweep)
-            keep_in(sweep);
-        return echo_ > 0 ? static_cast<double>(removed_) / static_cast<double>(echo_) : 0;
-    }
-
-  private:
-    [[nodiscard]] const SweepQuality* quality_of(std::size_t sweep) const {
-        const auto found = std::ranges::find(qualities_, sweep, &SweepQuality::sweep);
-        return found != qualities_.end() ? &*found : nullptr;
-    }
+    // Removes gates of one sweep.
     void keep_in(std::size_t number) {
         level2::Sweep& sweep = volume_.sweeps[number];
         const auto companion =
@@ -87,6 +76,13 @@ class WeatherKeeper {
             radials = nearest_radials(azimuths_of(sweep), from);
         for (SweepMoment& moment : sweep.moments)
             keep_gates(moment, from.moments[quality->moment], *quality, radials);
+    }
+    [[nodiscard]] const LeftOutEcho& left_out() const { return left_out_; }
+
+  private:
+    [[nodiscard]] const SweepQuality* quality_of(std::size_t sweep) const {
+        const auto found = std::ranges::find(qualities_, sweep, &SweepQuality::sweep);
+        return found != qualities_.end() ? &*found : nullptr;
     }
     void keep_gates(SweepMoment& moment, const SweepMoment& judged, const SweepQuality& quality,
                     const std::vector<std::int32_t>& radials) {
@@ -113,8 +109,8 @@ class WeatherKeeper {
                 const float probability = probabilities[static_cast<std::size_t>(there)];
                 const bool is_removed = !std::isnan(probability) && rounded(probability) < least_;
                 if (moment.moment == Moment::ref) {
-                    ++echo_;
-                    removed_ += is_removed ? 1 : 0;
+                    ++left_out_.echo;
+                    left_out_.left_out += is_removed ? 1 : 0;
                 }
                 if (!is_removed) continue;
                 if (moment.word_size_bits == 8)
@@ -128,7 +124,7 @@ class WeatherKeeper {
     level2::Volume& volume_;
     std::vector<SweepQuality> qualities_;
     float least_;
-    std::int64_t echo_ = 0, removed_ = 0;
+    LeftOutEcho left_out_;
 };
 
 }  // namespace
@@ -141,9 +137,29 @@ void add_quality_moment(level2::Volume& volume) {
     }
 }
 
-std::string keep_weather(level2::Volume& volume, double least) {
-    const double share = WeatherKeeper(volume, least).keep();
+std::string weather_note(double least, const LeftOutEcho& left_out) {
+    const double share = left_out.echo > 0 ? static_cast<double>(left_out.left_out) /
+                                                 static_cast<double>(left_out.echo)
+                                           : 0;
     return fmt::format("{}{:g}; {:.1f} % of the echo left out", quality_words, least, 100 * share);
+}
+
+LeftOutEcho keep_weather(level2::Volume& volume, double least) {
+    WeatherKeeper keeper(volume, least);
+    for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep)
+        keeper.keep_in(sweep);
+    return keeper.left_out();
+}
+
+LeftOutEcho keep_weather(level2::Sweep& sweep, std::span<const level2::Sweep> others,
+                         double least) {
+    level2::Volume volume;
+    volume.sweeps.assign(others.begin(), others.end());
+    volume.sweeps.push_back(std::move(sweep));
+    WeatherKeeper keeper(volume, least);
+    keeper.keep_in(others.size());
+    sweep = std::move(volume.sweeps.back());
+    return keeper.left_out();
 }
 
 }  // namespace stormcellar::retrieve

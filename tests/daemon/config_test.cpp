@@ -132,6 +132,21 @@ TEST_F(ConfigFile, DealiasingIsARungAndDerivedMomentsNeedIt) {
     }
 }
 
+TEST_F(ConfigFile, QualityIsAProbability) {
+    EXPECT_EQ(load(paths)->fixed.grid.quality, 0);
+    const auto loaded = [&](const std::string& value) {
+        return load(std::string(paths) + "[ingest]\nquality = " + value + "\n");
+    };
+    EXPECT_EQ(loaded("0.5")->fixed.grid.quality, 0.5);
+    EXPECT_EQ(loaded("1")->fixed.grid.quality, 1);
+    for (const char* refused : {"-0.1", "1.1", "50", "nan", "\"0.5\""}) {
+        const auto config = loaded(refused);
+        ASSERT_FALSE(config) << refused;
+        EXPECT_NE(config.error().message.find("[ingest] quality: "), std::string::npos)
+            << config.error().message;
+    }
+}
+
 TEST_F(ConfigFile, StationsAreKnownOrAnyOrAList) {
     EXPECT_EQ(load(paths)->fixed.ingest.stations, StationRule{});
     const auto rule_of = [&](const std::string& value) {

@@ -48,6 +48,7 @@ const std::vector<Section>& all_sections() {
           {"bunzip", "'fastest'", "'libbz2'"},
           {"moments", "['REF']", "['REF', 'VEL']"},
           {"dealias", "'auto'", "'region'"},
+          {"quality", "0", "0.5"},
           {"spacing_km", "1.0", "2.0"},
           {"extent_km", "[460, 460]", "[460, 400]"},
           {"levels_km", "'0.5:16:0.5'", "[1, 2]"}}},

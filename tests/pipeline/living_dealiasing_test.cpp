@@ -18,7 +18,6 @@ namespace stormcellar::pipeline {
 namespace {
 
 using level2::Moment;
-using retrieve::Dealiasing;
 
 constexpr const char* rain = "volumes/KLBB20160601_150025_V06";
 constexpr const char* rain_name = "KLBB20160601_150025_V06";
@@ -76,8 +75,7 @@ TEST_F(Living, EachSweepIsDealiasedOnceAndNearlyAsInTheWholeVolume) {
             from = end;
             if (!followed) followed = std::move(*FollowedFile::begin(path, options));
             ASSERT_TRUE(followed->read_to(end));
-            auto living = LivingSweeps::read(followed->kept(), nullptr, only(Moment::veld),
-                                             Dealiasing::automatic);
+            auto living = LivingSweeps::read(followed->kept(), nullptr, only(Moment::veld), {});
             ASSERT_TRUE(living) << living.error().message;
             newest = living->volume_of(Moment::veld);
             EXPECT_EQ(living->dealiased(), static_cast<int>(newest.sweeps.size() - shown));

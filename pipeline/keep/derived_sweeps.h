@@ -1,5 +1,5 @@
-// pipeline/keep/dealiased_sweeps.h -- keeps the dealiased velocities of shelved sweeps, so that
-// each sweep is dealiased once while its volume grows. Used only inside the pipeline room.
+// pipeline/keep/derived_sweeps.h -- keeps what was made of shelved sweeps, such as their dealiased
+// velocities, so that it is made once while a volume grows. Used only inside the pipeline room.
 //
 // Threads   Many threads may use it. keep() must not run while another thread puts a received sweep
 //           on the same shelf.
@@ -11,15 +11,16 @@
 #include <optional>
 
 #include "pipeline/keep/sweep_shelf.h"
+#include "retrieve/derived/quality_moment.h"
 #include "stormcellar/base/mutex.h"
 
 namespace stormcellar::pipeline {
 
-class DealiasedSweeps {
+class DerivedSweeps {
   public:
     using Key = std::size_t;
 
-    // Returns the dealiased sweep of a received sweep; none if it is not kept, as after a late
+    // Returns the sweep that was made of a received sweep; none if it is not kept, as after a late
     // radial replaced the received sweep on the shelf. Errors: those of the shelf.
     [[nodiscard]] std::optional<Result<level2::Sweep>> find(
         const SweepShelf& shelf, Key key, const SweepShelf::Place& received) const {
@@ -38,20 +39,28 @@ class DealiasedSweeps {
         const auto kept = kept_.find(key);
         return kept != kept_.end() && kept->second.received == received.offset;
     }
-    // Keeps a dealiased sweep in the place of any before. Errors: those of the shelf.
+    // Keeps a sweep in the place of any before, with the echo that was left out of it. Errors:
+    // those of the shelf.
     Status keep(SweepShelf& shelf, Key key, const SweepShelf::Place& received,
-                const level2::Sweep& dealiased) {
+                const level2::Sweep& made, const retrieve::LeftOutEcho& left_out = {}) {
         const MutexLock lock(mutex_);
-        const auto place = shelf.put(dealiased);
+        const auto place = shelf.put(made);
         if (!place) return pass_on(place);
-        kept_.insert_or_assign(key, Kept{received.offset, *place});
+        kept_.insert_or_assign(key, Kept{received.offset, *place, left_out});
         return {};
+    }
+    // Returns the echo that was left out of a sweep; nothing if the sweep is not kept.
+    [[nodiscard]] retrieve::LeftOutEcho left_out(Key key) const {
+        const MutexLock lock(mutex_);
+        const auto kept = kept_.find(key);
+        return kept != kept_.end() ? kept->second.left_out : retrieve::LeftOutEcho{};
     }
 
   private:
     struct Kept {
         std::uint64_t received = 0;  // offset of the received sweep
         SweepShelf::Place place;
+        retrieve::LeftOutEcho left_out;
     };
     mutable Mutex mutex_;
     std::map<Key, Kept> kept_ STORMCELLAR_GUARDED_BY(mutex_);
