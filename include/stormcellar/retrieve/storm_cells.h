@@ -1,0 +1,158 @@
+// stormcellar/retrieve/storm_cells.h -- finds storm cells in a 3D grid of reflectivity, and follows
+// them from scan to scan.
+//
+// Cells     A cell is a peak of reflectivity with the echo around it. Starting at the strongest
+//           grid cells, echo grows down to `least_dbz`. Where two peaks meet, they stay two cells
+//           if both rise above the pass between them by `prominence_db` and are far enough apart,
+//           so that the cells of a line separate. Peaks above each other are one cell.
+// Tracks    Each earlier cell is moved with its predicted motion. A cell continues the track whose
+//           moved footprint it overlaps, at the least cost of overlap and distance. An unmatched
+//           cell within a moved footprint was split off. A track that ends within another track's
+//           cell was merged into it.
+// Motion    A straight line through the last positions by least squares, joined with the motion of
+//           the echo pattern (guess_motions()), each weighted by its error.
+// Units     Degrees (WGS84), meters above mean sea level, dBZ, kg m^-2, mm, s^-1, m/s to the east
+//           and north.
+// Source    Ideas: SCIT (Johnson et al. 1998, Wea. Forecasting 13, 263), TITAN (Dixon and Wiener
+//           1993), TINT (Raut et al. 2021), tobac (Heikenfeld et al. 2019). VIL: Greene and Clark
+//           (1972). The rules and numbers here are our own.
+// Errors    See each function. An input without strong echo gives no cells, which is no error.
+// Threads   Pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/brick_view.h"
+#include "stormcellar/grid/projection.h"
+#include "stormcellar/retrieve/hail.h"
+#include "stormcellar/retrieve/wind_profile.h"
+
+namespace stormcellar::retrieve {
+
+struct CellOptions {
+    float least_dbz = 35;         // a cell ends below this reflectivity
+    float prominence_db = 6;      // of a peak above the passes to stronger cells
+    float least_peak_dbz = 41;    // weaker peaks are no cells
+    double separation_m = 5'000;  // horizontally between the peaks of two cells
+    double least_area_km2 = 10;
+    // Extent in height; layers thinner than this, such as a melting layer, are no cells. Does not
+    // apply to grids of one level.
+    double least_depth_m = 2'000;
+    float top_dbz = 18;  // of echo tops
+};
+
+// A run of columns of a grid row: first_x <= ix < end_x.
+struct ColumnRun {
+    int iy = 0, first_x = 0, end_x = 0;
+    bool operator==(const ColumnRun&) const = default;
+};
+
+struct StormCell {
+    grid::GeoPoint position;  // center of mass, with the liquid water of each grid cell as its mass
+    double area_km2 = 0;      // of all columns of the cell
+    float max_dbz = 0, max_dbz_height_m = 0;
+    // Height of the highest echo of `top_dbz` over the cell's columns. The error is one distance
+    // between levels. `top_is_at_least` if the air above such echo was not seen in some column.
+    float top_m = 0;
+    bool top_is_at_least = false;
+    float vil_kg_per_m2 = 0;       // the largest of its columns; reflectivity counts up to 56 dBZ
+    std::optional<float> mesh_mm;  // the largest of its columns; absent without freezing levels
+    std::optional<float> azimuthal_shear_per_s;  // the largest in its columns; absent if not given
+    std::vector<ColumnRun> columns;              // of the scan's grid, by row, then column
+    // Motion of the echo around the cell since the scan before; absent if nobody estimated it.
+    std::optional<Motion> echo_motion;
+};
+
+// The cells of one grid, the strongest first.
+struct CellScan {
+    UtcTime time;
+    std::string area;  // station or domain
+    grid::GridSpec spec;
+    std::vector<StormCell> cells;
+};
+
+// The grids of one time in which cells are found. All have the same spec.
+struct CellFields {
+    grid::BrickView reflectivity;
+    std::optional<grid::BrickView> azimuthal_shear;
+    std::optional<FreezingLevels> freezing;  // for hail
+};
+
+// Finds the cells of a grid. Errors: bad_argument if an option makes no sense, if the spec is not
+// valid, or if the specs of two fields differ.
+[[nodiscard]] Result<CellScan> find_cells(const CellFields& fields, UtcTime time, std::string area,
+                                          const CellOptions& options = {});
+
+// Sets `echo_motion` of the cells of `scan`, which were found in `after`, from the motion of all
+// echo since the grid `before`. Changes nothing if there is too little echo. Errors: bad_argument
+// if the specs differ or `seconds` is not positive.
+[[nodiscard]] Status guess_motions(CellScan& scan, const grid::BrickView& before,
+                                   const grid::BrickView& after, double seconds);
+
+enum class CellOrigin : std::uint8_t {
+    first,      // found for the first time
+    continued,  // the only successor of one earlier cell
+    split,      // split off from a cell that also continues
+    merged,     // continues a track, and at least one other track ended in it
+};
+// Returns "new", "continued", "split" or "merged".
+[[nodiscard]] std::string_view cell_origin_name(CellOrigin origin);
+
+struct CellSighting {
+    UtcTime time;
+    grid::GeoPoint position;
+};
+
+// Where a cell will be if it keeps its motion. The error is the standard deviation along each axis.
+struct CellForecast {
+    int minutes = 0;
+    UtcTime time;
+    grid::GeoPoint position;
+    double error_m = 0;
+};
+
+struct TrackMotion {
+    Motion velocity;
+    double error_mps = 0;  // standard error of each component
+};
+
+struct TrackedCell {
+    StormCell cell;
+    // Time and place of the first sight, as in "20130520T200400Z_35.32N_97.51W". So the id stays
+    // the same if later scans are added. It is unique within a result.
+    std::string id;
+    CellOrigin origin = CellOrigin::first;
+    std::vector<std::string> parents;  // split: the one it left; merged: the tracks that ended
+    UtcTime time;                      // of the scan
+    std::vector<CellSighting> past;    // of this id, from the first sight to the scan before
+    std::optional<TrackMotion> motion;
+    std::vector<CellForecast> forecasts;  // for 15, 30, 45 and 60 minutes; empty without a motion
+};
+
+struct TrackedScan {
+    UtcTime time;
+    std::string area;
+    std::vector<TrackedCell> cells;  // the strongest first
+};
+
+struct TrackOptions {
+    double longest_gap_s = 1'260;     // tracks end if no scan shows their cell for so long
+    double position_error_m = 1'000;  // of a cell's position, before residuals show it
+    double fastest_mps = 40;
+    std::size_t most_positions = 10;  // of the least squares
+};
+
+// Follows the cells through scans of one area. Scans may come in any order; the result is in order
+// of time. If several scans have the same time, the last of them counts. The last element has the
+// newest cells. Errors: bad_argument if the areas differ, or an option makes no sense.
+[[nodiscard]] Result<std::vector<TrackedScan>> track_cells(std::span<const CellScan> scans,
+                                                           const TrackOptions& options = {});
+
+}  // namespace stormcellar::retrieve
