@@ -20,6 +20,7 @@
 // Threads   Pure functions.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -110,6 +111,9 @@ struct CellSighting {
     grid::GeoPoint position;
 };
 
+// Lead times of the forecasts.
+inline constexpr std::array forecast_minutes = {15, 30, 45, 60};
+
 // Where a cell will be if it keeps its motion. The error is the standard deviation along each axis.
 struct CellForecast {
     int minutes = 0;
@@ -125,7 +129,7 @@ struct TrackMotion {
 
 struct TrackedCell {
     StormCell cell;
-    // Time and place of the first sight, as in "20130520T200400Z_35.32N_97.51W". So the id stays
+    // Time and place of the first sight, as in "20130520_200400_35.32N_97.51W". So the id stays
     // the same if later scans are added. It is unique within a result.
     std::string id;
     CellOrigin origin = CellOrigin::first;

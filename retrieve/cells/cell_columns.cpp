@@ -1,0 +1,128 @@
+#include "retrieve/cells/cell_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace stormcellar::retrieve {
+namespace {
+
+// The Weather Service caps reflectivity so that hail does not count as liquid water.
+constexpr double liquid_cap_dbz = 56;
+
+bool is_seen(grid::CellStatus status) {
+    return status == grid::CellStatus::value || status == grid::CellStatus::no_echo;
+}
+
+double liquid_kg_per_m2(double z_mm6_m3, double thickness_m) {
+    return z_mm6_m3 > 0 ? 3.44e-6 * std::pow(z_mm6_m3, 4.0 / 7) * thickness_m : 0;
+}
+
+}  // namespace
+
+std::vector<double> layer_thickness_m(std::span<const double> levels_m) {
+    const std::size_t n = levels_m.size();
+    std::vector<double> thickness_m(n, 0.0);
+    for (std::size_t i = 0; n > 1 && i < n; ++i) {
+        const double below_m = i == 0 ? levels_m[1] - levels_m[0] : levels_m[i] - levels_m[i - 1];
+        const double above_m =
+            i + 1 == n ? levels_m[i] - levels_m[i - 1] : levels_m[i + 1] - levels_m[i];
+        thickness_m[i] = (below_m + above_m) / 2;
+    }
+    return thickness_m;
+}
+
+ColumnMeter::ColumnMeter(const CellFields& fields, std::optional<HailLayers> hail, float top_dbz)
+    : fields_(fields),
+      hail_(std::move(hail)),
+      top_dbz_(top_dbz),
+      thickness_m_(layer_thickness_m(fields.reflectivity.spec->levels_m)),
+      dbz_(thickness_m_.size()),
+      z_(thickness_m_.size()),
+      seen_(thickness_m_.size()) {}
+
+void ColumnMeter::measure(StormCell& cell) {
+    double most_liquid = 0;
+    for (const ColumnRun& run : cell.columns) {
+        for (int ix = run.first_x; ix < run.end_x; ++ix) {
+            read(ix, run.iy);
+            measure_top(cell);
+            most_liquid = std::max(most_liquid, vil());
+            if (hail_) {
+                const float mesh_mm = hail_of_column(*hail_, dbz_).mesh_mm;
+                cell.mesh_mm = std::max(cell.mesh_mm.value_or(0), mesh_mm);
+            }
+            if (const auto shear = greatest_shear(ix, run.iy)) {
+                cell.azimuthal_shear_per_s =
+                    std::max(cell.azimuthal_shear_per_s.value_or(*shear), *shear);
+            }
+        }
+    }
+    cell.vil_kg_per_m2 = static_cast<float>(most_liquid);
+}
+
+void ColumnMeter::read(int ix, int iy) {
+    const grid::BrickView& view = fields_.reflectivity;
+    for (std::size_t i = 0; i < dbz_.size(); ++i) {
+        const auto iz = static_cast<int>(i);
+        seen_[i] = view.status(ix, iy, iz);
+        const bool has_value = seen_[i] == grid::CellStatus::value;
+        dbz_[i] = has_value ? view.value(ix, iy, iz) : std::numeric_limits<float>::quiet_NaN();
+        const double capped = std::min(static_cast<double>(dbz_[i]), liquid_cap_dbz);
+        z_[i] = has_value ? std::pow(10.0, capped / 10) : 0;
+    }
+}
+
+// Takes the highest echo of the column. Between two levels with values, reflectivity is linear.
+void ColumnMeter::measure_top(StormCell& cell) const {
+    const std::vector<double>& levels_m = fields_.reflectivity.spec->levels_m;
+    std::size_t i = dbz_.size();
+    while (i > 0 && !(dbz_[i - 1] >= top_dbz_))
+        --i;
+    if (i == 0) return;
+    const std::size_t highest = i - 1;
+    double top_m = levels_m[highest];
+    if (i == dbz_.size() || !is_seen(seen_[i])) {
+        cell.top_is_at_least = true;
+    } else if (seen_[i] == grid::CellStatus::value) {
+        const auto share =
+            static_cast<double>((dbz_[highest] - top_dbz_) / (dbz_[highest] - dbz_[i]));
+        top_m = std::lerp(levels_m[highest], levels_m[i], share);
+    }
+    cell.top_m = std::max(cell.top_m, static_cast<float>(top_m));
+}
+
+// Integrates as the product `vil` does: the layer between two levels has the mean of both; beside a
+// cell that was not seen, half a layer counts.
+double ColumnMeter::vil() const {
+    const std::vector<double>& levels_m = fields_.reflectivity.spec->levels_m;
+    const std::size_t n = z_.size();
+    double sum = 0;
+    if (is_seen(seen_[0])) sum += liquid_kg_per_m2(z_[0], thickness_m_[0] / 2);
+    if (is_seen(seen_[n - 1])) sum += liquid_kg_per_m2(z_[n - 1], thickness_m_[n - 1] / 2);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        const double between_m = levels_m[i + 1] - levels_m[i];
+        const bool below = is_seen(seen_[i]), above = is_seen(seen_[i + 1]);
+        if (below && above)
+            sum += liquid_kg_per_m2((z_[i] + z_[i + 1]) / 2, between_m);
+        else if (below || above)
+            sum += liquid_kg_per_m2(z_[i] + z_[i + 1], between_m / 2);
+    }
+    return sum;
+}
+
+// Returns the largest shear of the column where there is echo, because shear outside echo is noise.
+std::optional<float> ColumnMeter::greatest_shear(int ix, int iy) const {
+    if (!fields_.azimuthal_shear) return std::nullopt;
+    const grid::BrickView& view = *fields_.azimuthal_shear;
+    std::optional<float> greatest;
+    for (std::size_t i = 0; i < dbz_.size(); ++i) {
+        const auto iz = static_cast<int>(i);
+        if (!(dbz_[i] >= top_dbz_) || view.status(ix, iy, iz) != grid::CellStatus::value) continue;
+        greatest = std::max(greatest.value_or(view.value(ix, iy, iz)), view.value(ix, iy, iz));
+    }
+    return greatest;
+}
+
+}  // namespace stormcellar::retrieve

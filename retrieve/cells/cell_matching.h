@@ -1,0 +1,52 @@
+// retrieve/cells/cell_matching.h -- which cells of a scan continue which tracks.
+//
+// A pair is possible if the predicted place of the track is within the gate, or if the moved
+// footprint covers enough of the smaller of both. Its cost is the distance in gates plus the share
+// of the smaller footprint that is not covered. Pairs are taken in order of their cost.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "stormcellar/retrieve/storm_cells.h"
+
+namespace stormcellar::retrieve {
+
+// Where a track should be at the time of the scan.
+struct ExpectedCell {
+    const StormCell* cell = nullptr;  // as it was last seen
+    const grid::GridSpec* spec = nullptr;
+    grid::GeoPoint place;
+    double gate_m = 0;
+};
+
+// The least share of a footprint that counts as the same storm.
+inline constexpr double least_overlap = 0.3;
+
+// Numbers of columns: of both footprints, and of both together after the first was moved.
+struct FootprintOverlap {
+    double expected = 0, found = 0, common = 0;
+    [[nodiscard]] double of_smaller() const;
+    [[nodiscard]] double of_expected() const { return expected > 0 ? common / expected : 0; }
+    [[nodiscard]] double of_found() const { return found > 0 ? common / found : 0; }
+};
+
+struct CellMatches {
+    std::vector<std::optional<std::size_t>> found_of;     // cell of each expected one
+    std::vector<std::optional<std::size_t>> expected_of;  // and back
+    // The overlaps of all pairs that overlap, by expected cell, then by found cell.
+    struct Pair {
+        std::size_t expected = 0, found = 0;
+        FootprintOverlap overlap;
+    };
+    std::vector<Pair> overlaps;
+};
+
+// Footprints of different grids do not overlap, so only distance counts for them.
+[[nodiscard]] CellMatches match_cells(std::span<const ExpectedCell> expected, const CellScan& scan);
+
+}  // namespace stormcellar::retrieve
