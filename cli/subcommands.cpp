@@ -12,6 +12,7 @@ Run set_up_accuracy(CLI::App& command);
 Run set_up_batch(CLI::App& command);
 Run set_up_cache(CLI::App& command);
 Run set_up_catalog(CLI::App& command);
+Run set_up_cells(CLI::App& command);
 Run set_up_cyclone(CLI::App& command);
 Run set_up_fetch(CLI::App& command);
 Run set_up_frame(CLI::App& command);
@@ -37,6 +38,7 @@ constexpr std::array registry{
     Subcommand{"batch", "Make the grids and frames of an archive on many machines", set_up_batch},
     Subcommand{"cache", "List, verify, pin and evict the grids in the cache", set_up_cache},
     Subcommand{"catalog", "Query, check and rebuild the catalog of raw files", set_up_catalog},
+    Subcommand{"cells", "Find storm cells, follow them and forecast their places", set_up_cells},
     Subcommand{"cyclone", "Measure the center, wind and pressure of a hurricane", set_up_cyclone,
                "If the velocities cannot show a hurricane, the command says why. The exit status "
                "is then 3.\n"},

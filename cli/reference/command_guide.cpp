@@ -38,6 +38,14 @@ Guides guides_of_use() {
 
 Guides guides_of_files() {
     return {
+        {"cells",
+         {{"stormcellar cells KTLX19990503_*.gz",
+           "Print the storm cells of the newest volume, with their motion and history."},
+          {"stormcellar cells KTLX19990503_*.gz --shear -o cells.geojson",
+           "Write cells, tracks and forecasts for GIS, with the rotation of each cell."},
+          {"stormcellar cells CACHE/oklahoma/REF/19990503/*.scg --to placefile",
+           "Print a placefile of the cells in the grids of a domain."}},
+         {"--output", "--to", "--json", "--shear", "--freezing-levels", "--quality"}},
         {"cyclone",
          {{"stormcellar cyclone KCRP20170826_044114_V06",
            "Print a hurricane's center, wind by radius and fall of pressure."},

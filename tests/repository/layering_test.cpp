@@ -119,6 +119,7 @@ const std::map<std::string, std::map<std::string, Rooms>> allowed_inside = {
       {"batch", {"grid", "loop", "shared"}},
       {"accuracy", {"grid", "picture", "shared"}},
       {"synth", {"shared"}},
+      {"storms", {"grid", "picture", "shared"}},
       {"velocity", {"shared"}},
       {"serve", {"grid", "shared"}},
       {"reference", {"shared"}}}},
