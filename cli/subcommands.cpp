@@ -20,6 +20,7 @@ Run set_up_grid(CLI::App& command);
 Run set_up_help(CLI::App& command);
 Run set_up_info(CLI::App& command);
 Run set_up_loop(CLI::App& command);
+Run set_up_nowcast(CLI::App& command);
 Run set_up_profile(CLI::App& command);
 Run set_up_replay(CLI::App& command);
 Run set_up_serve(CLI::App& command);
@@ -54,6 +55,8 @@ constexpr std::array registry{
                set_up_loop,
                "The command names each damaged grid file on standard error and leaves it out. The "
                "exit status is 0 if at least one frame was written.\n"},
+    Subcommand{"nowcast", "Move the latest echo up to an hour ahead, with the measured error",
+               set_up_nowcast},
     Subcommand{"profile", "Measure the wind above a radar by height, and draw a hodograph",
                set_up_profile},
 #endif

@@ -213,6 +213,13 @@ Guides guides_of_pictures() {
            "Show all sweeps of a volume, from the lowest up."}},
          {"--output", "--cache", "--from", "--to", "--last", "--product", "--moment", "--orbit",
           "--fps", "--follow"}},
+        {"nowcast",
+         {{"stormcellar nowcast KBGM20050822_*.gz",
+           "Measure how well echo is extrapolated, by lead time."},
+          {"stormcellar nowcast KTLX --cache CACHE --minutes 15,30,60 --product composite -o "
+           "soon.png",
+           "Draw a radar's echo 15, 30 and 60 minutes ahead, each with its measured error."}},
+         {"--minutes", "--output", "--cache", "--domain", "--product", "--json"}},
     };
 }
 

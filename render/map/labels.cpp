@@ -78,6 +78,7 @@ std::string view_text(const Scene& scene) {
 
 std::vector<std::string> warnings_of(const FrameFacts& facts) {
     std::vector<std::string> warnings;
+    if (!facts.nowcast.empty()) warnings.push_back(facts.nowcast);
     if (facts.partial) warnings.emplace_back("partial volume");
     for (const std::string& machine : facts.left_out)
         warnings.push_back("without " + machine);
@@ -225,6 +226,7 @@ FooterTexts footer_of(const Scene& scene, const FrameFacts& facts, const DrawnFa
     FooterTexts texts;
     texts.view = view_line(scene, facts, picture.ring_spacing_m);
     if (!picture.hail.empty()) texts.view += "  \u00B7  " + picture.hail;
+    if (!facts.nowcast_score.empty()) texts.view += "  \u00B7  " + facts.nowcast_score;
     texts.seen = picture.sweep;
     const auto& coverage = picture.coverage;
     if (facts.antenna_to_picture) {

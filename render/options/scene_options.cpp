@@ -11,6 +11,7 @@
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
 #include "render/options/moment_name.h"
+#include "retrieve/nowcast/nowcast_note.h"
 
 namespace stormcellar::render {
 
@@ -243,6 +244,9 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
         facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
     facts.quality = retrieve::quality_in_notes(description.provenance.notes);
     facts.since = track_start(description.provenance.notes);
+    auto note = retrieve::nowcast_in_notes(description.provenance.notes);
+    facts.nowcast = std::move(note.nowcast);
+    facts.nowcast_score = std::move(note.score);
     // Grids of other moments of the volume have the note, too.
     if (level2::is_dealiased(description.moment))
         facts.dealiasing = retrieve::dealiasing_in_notes(description.provenance.notes);

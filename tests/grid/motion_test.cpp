@@ -16,7 +16,7 @@ namespace {
 constexpr double accuracy_mps = 1.5;  // as in grid/mosaic/motion.h
 constexpr double apart_s = 300;
 
-GridSpec spec_of(int cells, double spacing_m) {
+GridSpec drift_spec(int cells, double spacing_m) {
     GridSpec spec = square_spec(35, -97, cells, spacing_m);
     spec.levels_m = {1000, 2000, 4000};
     return spec;
@@ -48,7 +48,7 @@ struct Drift {
 class EveryDrift : public ::testing::TestWithParam<Drift> {};
 
 TEST_P(EveryDrift, IsHadBackEverywhere) {
-    const GridSpec spec = spec_of(400, 1000);
+    const GridSpec spec = drift_spec(400, 1000);
     const auto [east_mps, north_mps] = GetParam();
     const auto field = between(spec, storms(east_mps, north_mps));
     ASSERT_TRUE(field) << field.error().message;
@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(Motion, EveryDrift,
                                            Drift{-33, 21}, Drift{5, -3}, Drift{-2, 48}));
 
 TEST(Motion, OfTwoRegionsIsThatOfEach) {
-    const GridSpec spec = spec_of(400, 1000);
+    const GridSpec spec = drift_spec(400, 1000);
     std::vector<Blob> blobs;
     for (int i = 0; i < 8; ++i) {
         const double y_km = -160 + 45.0 * i;
@@ -85,7 +85,7 @@ TEST(Motion, OfTwoRegionsIsThatOfEach) {
 }
 
 TEST(Motion, IsNotKnownWhereThereIsNoEchoOrHardlyAny) {
-    const GridSpec spec = spec_of(300, 1000);
+    const GridSpec spec = drift_spec(300, 1000);
     const auto none = between(spec, {});
     ASSERT_TRUE(none);
     EXPECT_FALSE(*none);
@@ -95,7 +95,7 @@ TEST(Motion, IsNotKnownWhereThereIsNoEchoOrHardlyAny) {
 }
 
 TEST(Motion, HasTheSameBitsOnAnyNumberOfThreads) {
-    const GridSpec spec = spec_of(300, 1000);
+    const GridSpec spec = drift_spec(300, 1000);
     MotionOptions options;
     const auto alone = between(spec, storms(11, -7), options);
     options.threads = 5;
@@ -107,8 +107,8 @@ TEST(Motion, HasTheSameBitsOnAnyNumberOfThreads) {
 
 TEST(Motion, OfOtherSpecsOrNoTimeIsRefused) {
     const auto quantization = default_quantization(level2::Moment::ref);
-    const auto one = BrickGrid::from(blob_grid(spec_of(100, 1000), {}, 0), quantization);
-    const auto other = BrickGrid::from(blob_grid(spec_of(100, 2000), {}, 0), quantization);
+    const auto one = BrickGrid::from(blob_grid(drift_spec(100, 1000), {}, 0), quantization);
+    const auto other = BrickGrid::from(blob_grid(drift_spec(100, 2000), {}, 0), quantization);
     EXPECT_EQ(estimate_motion(one.view(), other.view(), 300).error().code, ErrorCode::bad_argument);
     EXPECT_EQ(estimate_motion(one.view(), one.view(), 0).error().code, ErrorCode::bad_argument);
     EXPECT_EQ(estimate_motion(one.view(), one.view(), std::nan("")).error().code,
@@ -125,7 +125,7 @@ TEST(MotionField, IsBilinearBetweenNodesAndConstantBeyond) {
 }
 
 TEST(EchoImage, HoldsTheMeanOfColumnMaximaAboveTheFloor) {
-    GridSpec spec = spec_of(4, 1000);
+    GridSpec spec = drift_spec(4, 1000);
     Grid grid = blob_grid(spec, {}, 0);
     const auto set = [&](int ix, int iy, int iz, float dbz) {
         grid.status[spec.index(ix, iy, iz)] = CellStatus::value;
@@ -149,7 +149,7 @@ TEST(EchoImage, HoldsTheMeanOfColumnMaximaAboveTheFloor) {
 }
 
 TEST(EchoImage, APixelIsSeenWhereHalfOfItsColumnsAre) {
-    const GridSpec spec = spec_of(8, 1000);
+    const GridSpec spec = drift_spec(8, 1000);
     Grid grid = blob_grid(spec, {}, 0);
     for (int ix = 0; ix < 8; ++ix) {
         for (int iy = 0; iy < 8; ++iy) {

@@ -36,6 +36,10 @@ struct FrameFacts {
     std::string dealiasing = {};
     std::optional<UtcTime> since = {};  // the first volume of a product over time
     bool interpolated = false;          // the grid was interpolated between volumes, as requested
+    // For a nowcast, what it is and its measured error (retrieve/nowcast/nowcast_note.h); else
+    // empty.
+    std::string nowcast = {};
+    std::string nowcast_score = {};
 };
 
 }  // namespace stormcellar::render
