@@ -7,8 +7,11 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -189,6 +192,62 @@ TEST(ApiSweeps, HaveTheDealiasedVelocityBesideTheVelocity) {
               0);
     EXPECT_EQ(doors.get(path + "/0/VELD").status, 404U) << "a surveillance sweep has no velocity";
     EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes) << "the second answer is the kept one";
+}
+
+// Gates without echo that is probably no weather are those that the library leaves, and the header
+// gives the share of the sweep that is left out.
+TEST(ApiSweeps, LackEchoThatIsProbablyNoWeatherOnRequest) {
+    STORMCELLAR_NEED_DATA();
+    const ServedVolumes volumes;
+    OpenDoors doors(volumes);
+    const auto volume =
+        level2::decode_file(testing::real_file("volumes/KTLX20170101_030027_V06"))->volume;
+    retrieve::DerivedOptions options;
+    options.quality = 0.5;
+    const auto weather =
+        retrieve::derived_velocities(volume, std::array{level2::Moment::veld}, options);
+    ASSERT_TRUE(weather);
+    const std::string path = "/api/v1/stations/KTLX/volumes/2017-01-01T03:00:27Z/sweeps/";
+    const auto valid = [](const level2::Volume& of, std::size_t sweep, level2::Moment moment) {
+        const level2::SweepMoment& gates = *of.sweeps.at(sweep).find(moment);
+        double count = 0;
+        for (std::size_t radial = 0; radial < gates.gate_counts.size(); ++radial)
+            for (std::int32_t gate = 0; gate < gates.gate_counts[radial]; ++gate)
+                count += gates.status(radial, gate) == level2::GateStatus::valid ? 1 : 0;
+        return count;
+    };
+    for (const auto& [sweep, moment, counted] :
+         {std::tuple{0, level2::Moment::ref, level2::Moment::ref},
+          {1, level2::Moment::vel, level2::Moment::vel},
+          {1, level2::Moment::veld, level2::Moment::vel}}) {
+        const std::string gates = fmt::format("{}{}/{}", path, sweep, level2::moment_name(moment));
+        SCOPED_TRACE(gates);
+        const std::string bytes = body_of(doors.get(gates + "?quality=0.5"));
+        PackedSweepHeader header;
+        ASSERT_GE(bytes.size(), sizeof header);
+        std::memcpy(&header, bytes.data(), sizeof header);
+        const auto at = static_cast<std::size_t>(sweep);
+        const level2::SweepMoment& made = *weather->volume.sweeps.at(at).find(moment);
+        const std::string_view codes =
+            made.word_size_bits == 8
+                ? std::string_view(reinterpret_cast<const char*>(made.codes8.data()),
+                                   made.codes8.size())
+                : std::string_view(reinterpret_cast<const char*>(made.codes16.data()),
+                                   2 * made.codes16.size());
+        EXPECT_TRUE(std::string_view(bytes).substr(header.codes_offset) == codes);
+        EXPECT_EQ(header.least_probability, 0.5F);
+        EXPECT_GT(header.left_out_share, 0.1F);
+        EXPECT_NEAR(header.left_out_share,
+                    1 - valid(weather->volume, at, counted) / valid(volume, at, counted), 1e-6);
+        const std::string all = body_of(doors.get(gates));
+        std::memcpy(&header, all.data(), sizeof header);
+        EXPECT_EQ(header.least_probability, 0);
+        EXPECT_EQ(header.left_out_share, 0);
+        EXPECT_NE(all, bytes);
+        EXPECT_EQ(body_of(doors.get(gates + "?quality=0")).substr(0, all.size()), all);
+    }
+    for (const char* refused : {"-0.1", "1.5", "half", "nan"})
+        EXPECT_EQ(doors.get(path + "0/REF?quality=" + refused).status, 400U) << refused;
 }
 
 // 2026-11-28: a volume that came as chunks was decoded once, so its list never got later sweeps.

@@ -53,10 +53,30 @@ void append_radials(const level2::Sweep& sweep, const level2::SweepMoment& gates
     }
 }
 
+std::int64_t gates_with_echo(const level2::Sweep& sweep, level2::Moment moment) {
+    const std::uint16_t first_valid = level2::facts_of(moment).first_valid_code;
+    std::int64_t count = 0;
+    for (const level2::SweepMoment* gates : kinds_of(sweep, moment))
+        for (std::size_t radial = 0; radial < gates->gate_counts.size(); ++radial)
+            for (std::int32_t gate = 0; gate < gates->gate_counts[radial]; ++gate)
+                count += gates->code(radial, gate) >= first_valid ? 1 : 0;
+    return count;
+}
+
+// Returns the share of the gates with echo of the measured moment that the sweep lacks.
+float share_left_out(const level2::Sweep& kept, const level2::Sweep& all, level2::Moment moment) {
+    const level2::Moment measured = level2::measured_moment(moment);
+    const std::int64_t before = gates_with_echo(all, measured);
+    if (before == 0) return 0;
+    const std::int64_t lost = before - gates_with_echo(kept, measured);
+    return static_cast<float>(static_cast<double>(lost) / static_cast<double>(before));
+}
+
 }  // namespace
 
 Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
-                               level2::Moment moment, std::size_t kind) {
+                               level2::Moment moment, std::size_t kind,
+                               const LackingEcho& lacking) {
     if (sweep >= volume.sweeps.size()) {
         return fail(ErrorCode::not_found, "the volume has {} sweeps; there is no sweep {}",
                     volume.sweeps.size(), sweep);
@@ -72,6 +92,10 @@ Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
     header.sweep = static_cast<std::uint32_t>(sweep);
     header.kind = static_cast<std::uint32_t>(kind);
     header.kind_count = static_cast<std::uint32_t>(kinds.size());
+    if (lacking.all != nullptr && sweep < lacking.all->sweeps.size()) {
+        header.least_probability = static_cast<float>(lacking.least_probability);
+        header.left_out_share = share_left_out(of, lacking.all->sweeps[sweep], moment);
+    }
     header.radials_offset = sizeof header;
     header.codes_offset = header.radials_offset + of.radials.size() * sizeof(PackedRadial);
     std::string bytes(sizeof header, '\0');

@@ -39,7 +39,9 @@ struct PackedSweepHeader {
     float scale = 1, offset = 0;         // value = (code - offset) / scale
     std::uint64_t radials_offset = 0;
     std::uint64_t codes_offset = 0;
-    std::uint64_t reserved = 0;
+    // Gates with a lesser probability of weather are left out; 0: none are.
+    float least_probability = 0;
+    float left_out_share = 0;  // of the sweep's gates with echo
 };
 static_assert(sizeof(PackedSweepHeader) == 128);
 static_assert(offsetof(PackedSweepHeader, version) == 8);
@@ -64,6 +66,8 @@ static_assert(offsetof(PackedSweepHeader, scale) == 96);
 static_assert(offsetof(PackedSweepHeader, offset) == 100);
 static_assert(offsetof(PackedSweepHeader, radials_offset) == 104);
 static_assert(offsetof(PackedSweepHeader, codes_offset) == 112);
+static_assert(offsetof(PackedSweepHeader, least_probability) == 120);
+static_assert(offsetof(PackedSweepHeader, left_out_share) == 124);
 
 struct PackedRadial {
     std::int64_t time_ms = 0;
@@ -80,9 +84,16 @@ static_assert(offsetof(PackedRadial, nyquist_mps) == 16);
 static_assert(offsetof(PackedRadial, unambiguous_range_m) == 20);
 static_assert(offsetof(PackedRadial, gate_count) == 24);
 
+// The echo that a volume lacks because it is probably no weather.
+struct LackingEcho {
+    double least_probability = 0;
+    const level2::Volume* all = nullptr;  // the volume with all echo; null: it lacks none
+};
+
 // Returns the bytes. A sweep may have several arrays of one moment, with different gates; `kind` is
 // the index of the array. Errors: not_found if the volume has no such sweep, moment or array.
 [[nodiscard]] Result<std::string> pack_sweep(const level2::Volume& volume, std::size_t sweep,
-                                             level2::Moment moment, std::size_t kind);
+                                             level2::Moment moment, std::size_t kind,
+                                             const LackingEcho& lacking = {});
 
 }  // namespace stormcellar::web

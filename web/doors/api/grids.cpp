@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "stormcellar/grid/audit_row.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "web/doors/api/operations.h"
 
 namespace stormcellar::web {
@@ -222,6 +223,8 @@ Answer api_grid(const ApiCall& call) {
                                  {"altitude_m", site.altitude_m}});
     }
     json["provenance"] = provenance_json(description.provenance);
+    const std::string quality = retrieve::quality_in_notes(description.provenance.notes);
+    json["quality"] = quality.empty() ? ApiJson() : ApiJson(quality);
     json["audit"] = audit_json_of(grid);
     json["links"] = {{"packed", path + "/packed?id=" + grid.id},
                      {"probe", path + "/probe"},

@@ -15,8 +15,12 @@ constexpr std::array stations_parameters{
 constexpr std::array volumes_parameters{
     from_time, to_time,
     ApiParameter{"limit", "the newest so many, 1 to 10000; default 100", ApiKind::whole}};
-constexpr std::array gates_parameters{ApiParameter{
-    "kind", "which kind of gates, if a sweep has several of a moment; default 0", ApiKind::whole}};
+constexpr std::array gates_parameters{
+    ApiParameter{"kind", "which kind of gates, if a sweep has several of a moment; default 0",
+                 ApiKind::whole},
+    ApiParameter{"quality",
+                 "leave out echo whose probability of weather is less, 0 to 1; default 0",
+                 ApiKind::number}};
 constexpr std::array grids_parameters{
     ApiParameter{"domain", "name of one domain; default: all"}, one_moment, from_time, to_time,
     ApiParameter{"limit", "the newest so many, 1 to 10000; default 100", ApiKind::whole}};

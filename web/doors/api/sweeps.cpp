@@ -101,16 +101,21 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// Like volume_of(), but returns a volume with the wanted derived moment. Unless that is POW, the
-// volume has only velocities, VELD and the wanted moment.
+// Like volume_of(), but returns a volume with the wanted moment, without echo whose probability of
+// weather is less than `quality`. If all echo is kept and the moment comes from velocities, the
+// volume has only these, VELD and the wanted moment.
 Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const FoundVolume& found,
-                                                    level2::Moment wanted) {
-    const std::string key = fmt::format("{}/{}", found.key, level2::moment_name(wanted));
+                                                    level2::Moment wanted, double quality) {
+    const bool is_derived = level2::facts_of(wanted).is_derived;
+    const std::string key =
+        fmt::format("{}/{}/{}", found.key, is_derived ? level2::moment_name(wanted) : "", quality);
     if (auto kept = call.state.find_volume(key)) return kept;
     if (call.must_be_quick) return refuse(takes_long());
     const auto measured = volume_of(call, found);
     if (!measured) return measured;
-    auto made = retrieve::derived_velocities(**measured, std::array{wanted});
+    retrieve::DerivedOptions options;
+    options.quality = quality;
+    auto made = retrieve::derived_velocities(**measured, std::array{wanted}, options);
     if (!made) return refuse(made.error());
     auto derived = std::make_shared<const level2::Volume>(std::move(made->volume));
     call.state.keep_volume(key, derived);
@@ -196,6 +201,9 @@ Answer api_sweeps(const ApiCall& call) {
 Answer api_gates(const ApiCall& call) {
     const auto kind = whole_parameter(call, "kind", 0, 63, 0);
     if (!kind) return json_error(kind.error());
+    const auto quality = number_parameter(call, "quality", 0, 1);
+    if (!quality) return json_error(quality.error());
+    const double least = quality->value_or(0);
     const auto moment = level2::moment_from_name(call.path_value("moment"));
     const auto sweep = range_of_text("sweep", call.path_value("sweep"));
     if (!moment || !sweep || sweep->first != sweep->second) {
@@ -204,18 +212,23 @@ Answer api_gates(const ApiCall& call) {
     const auto found = find_cataloged(call);
     if (!found) return found.error();
     const Coding coding = coding_for(call.request);
-    const std::string key = fmt::format("gates/{}/{}/{}/{}/{}", found->key, sweep->first,
-                                        call.path_value("moment"), *kind, coding_name(coding));
+    const std::string key =
+        fmt::format("gates/{}/{}/{}/{}/{}/{}", found->key, sweep->first, call.path_value("moment"),
+                    *kind, least, coding_name(coding));
     KeptAnswers& answers = *call.state.sources().kept;
     auto kept = answers.find(key);
     if (!kept) {
-        const auto volume = level2::facts_of(*moment).is_derived
-                                ? derived_volume_of(call, *found, *moment)
+        const auto volume = level2::facts_of(*moment).is_derived || least > 0
+                                ? derived_volume_of(call, *found, *moment, least)
                                 : volume_of(call, *found);
         if (!volume) return volume.error();
+        // The share that is left out is counted against all echo.
+        const auto all =
+            least > 0 ? volume_of(call, *found) : Answered<ApiState::DecodedVolume>{nullptr};
+        if (!all) return all.error();
         auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
-            const auto bytes =
-                pack_sweep(**volume, sweep->first, *moment, static_cast<std::size_t>(*kind));
+            const auto bytes = pack_sweep(**volume, sweep->first, *moment,
+                                          static_cast<std::size_t>(*kind), {least, all->get()});
             if (!bytes) return pass_on(bytes);
             return kept_compressed(*bytes, coding);
         });
