@@ -16,6 +16,7 @@
 #include "web/doors/raw/polling.h"
 #include "web/doors/raw/volumes.h"
 #include "web/doors/s3/s3.h"
+#include "web/doors/storms/placefiles.h"
 #include "web/doors/thredds/thredds.h"
 #include "web/doors/viewer/viewer.h"
 #include "web/doors/viewer/viewer_files.h"
@@ -133,15 +134,22 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const Watched watched = watch_over(sources);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
+        const auto storms =
+            std::make_shared<StormAnswers>(std::make_shared<StormScans>(sources.grids), kept);
         const auto api = std::make_shared<ApiDoor>(
             ApiSources{.grids = sources.grids,
                        .catalog = setup.catalog,
                        .reader = sources.catalog,
                        .kept = kept,
                        .feed = watched.feed,
-                       .gives_volumes = setup.web.serves(WebPart::volumes)});
-        api->set_long_workers(std::make_shared<WorkQueue>(
-            static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting)));
+                       .gives_volumes = setup.web.serves(WebPart::volumes),
+                       .storms = storms});
+        const auto long_workers = std::make_shared<WorkQueue>(
+            static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting));
+        api->set_long_workers(long_workers);
+        const auto placefiles = std::make_shared<PlacefilesDoor>(storms);
+        placefiles->set_long_workers(long_workers);
+        doors->add("/placefiles", placefiles);
         doors->add("/api/v1", api);
     }
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);

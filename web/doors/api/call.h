@@ -31,8 +31,11 @@
 namespace stormcellar::web {
 
 class EventFeed;
+class StormAnswers;
 
 using ApiJson = nlohmann::ordered_json;
+
+inline constexpr std::string_view geojson_type = "application/geo+json";
 
 // The data that the API serves.
 struct ApiSources {
@@ -41,8 +44,9 @@ struct ApiSources {
     // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
-    std::shared_ptr<const EventFeed> feed = nullptr;  // null: no station counts as silent
-    bool gives_volumes = true;                        // raw files are served, too
+    std::shared_ptr<const EventFeed> feed = nullptr;       // null: no station counts as silent
+    bool gives_volumes = true;                             // raw files are served, too
+    std::shared_ptr<const StormAnswers> storms = nullptr;  // null: no storms are served
 };
 
 class ApiState {

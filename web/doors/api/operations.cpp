@@ -61,6 +61,10 @@ constexpr std::array regions_parameters{
     ApiParameter{"east", "degrees, greater than west", ApiKind::number, true},
     ApiParameter{"north", "degrees", ApiKind::number, true}};
 
+constexpr std::array storms_parameters{
+    ApiParameter{"area", "a station or domain; default: all domains, or else all stations"},
+    ApiParameter{"time", "the newest grids at most 30 minutes before this; default: the newest"}};
+
 constexpr std::array events_parameters{
     ApiParameter{"station", "hear of these stations: ICAOs with commas"},
     ApiParameter{"domain", "hear of the grids of these domains, too"},
@@ -175,6 +179,10 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      api_region_packed},
     {"events", "/api/v1/events", "What happens, as it happens: server-sent events.",
      events_parameters, events_type, events_errors, api_no_events},
+    {"cells", "/api/v1/cells", "Storm cells with attributes, tracks and forecasts, as GeoJSON.",
+     storms_parameters, geojson_type, volume_errors, api_cells},
+    {"rotation", "/api/v1/rotation", "Places of the strongest azimuthal shear, as GeoJSON.",
+     storms_parameters, geojson_type, volume_errors, api_rotation},
     {"map", "/api/v1/map", "Coasts, borders, lakes and cities of an area.", map_parameters,
      json_type, bad_request, api_map},
     {"tables",
@@ -244,7 +252,8 @@ ApiJson parameters_json(const ApiOperation& operation) {
 }
 
 ApiJson responses_json(const ApiOperation& operation) {
-    const bool is_json = operation.content_type == json_type;
+    const bool is_json =
+        operation.content_type == json_type || operation.content_type == geojson_type;
     ApiJson schema = is_json ? ApiJson::object({{"type", "object"}})
                              : ApiJson::object({{"type", "string"}, {"format", "binary"}});
     if (operation.content_type == events_type) schema = {{"type", "string"}};

@@ -63,6 +63,8 @@ Answer api_between(const ApiCall& call);
 Answer api_regions(const ApiCall& call);
 Answer api_region_packed(const ApiCall& call);
 Answer api_region_sites(const ApiCall& call);
+Answer api_cells(const ApiCall& call);
+Answer api_rotation(const ApiCall& call);
 Answer api_map(const ApiCall& call);
 Answer api_tables(const ApiCall& call);
 Answer api_no_events(const ApiCall& call);
