@@ -13,7 +13,7 @@ namespace {
 
 using grid::CellStatus;
 
-constexpr float half_step_per_s = 0.5F * 0.03125e-3F;
+constexpr float half_code_per_s = 0.5F * 0.03125e-3F;
 
 grid::Grid no_shear() {
     grid::Grid made;
@@ -52,9 +52,9 @@ TEST(ShearPeaks, AreTheStrongestColumnsOfTheLayer) {
     set_shear(made, 20, 35, 15, 0.05F);   // above the layer
     const auto peaks = peaks_of_grid(made);
     ASSERT_EQ(peaks.size(), 3U);
-    EXPECT_NEAR(peaks[0].azimuthal_per_s, 0.02F, half_step_per_s);
+    EXPECT_NEAR(peaks[0].azimuthal_per_s, 0.02F, half_code_per_s);
     EXPECT_EQ(peaks[0].height_m, 2500);
-    EXPECT_NEAR(peaks[1].azimuthal_per_s, 0.0123F, half_step_per_s);
+    EXPECT_NEAR(peaks[1].azimuthal_per_s, 0.0123F, half_code_per_s);
     EXPECT_EQ(peaks[1].height_m, 1500);
     EXPECT_EQ(peaks[1].ix, 10);
     EXPECT_EQ(peaks[2].ix, 15);

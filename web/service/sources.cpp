@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "web/data/grids/kept_answers.h"
+#include "web/data/storms/cell_events.h"
 #include "web/doors/api/door.h"
 #include "web/doors/events/events.h"
 #include "web/doors/index/index.h"
@@ -70,12 +71,18 @@ struct Watched {
     std::shared_ptr<EventHub> hub = EventHub::make();
     std::shared_ptr<const EventFeed> feed;
 };
-Watched watch_over(const Sources& sources) {
+Watched watch_over(const Sources& sources, const std::shared_ptr<StormScans>& scans) {
     Watched watched;
+    std::function<void(const std::string&)> on_reflectivity;
+    if (sources.setup.web.serves(WebPart::events) && sources.setup.web.serves(WebPart::grids)) {
+        on_reflectivity = [cells = std::make_shared<CellEvents>(scans, watched.hub)](
+                              const std::string& area) { cells->hear(area); };
+    }
     watched.feed = EventFeed::open({.grids = sources.grids,
                                     .catalog = sources.setup.catalog,
                                     .reader = sources.catalog,
                                     .hub = watched.hub,
+                                    .on_reflectivity = std::move(on_reflectivity),
                                     .silent_after = sources.setup.web.silent});
     return watched;
 }
@@ -131,11 +138,11 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::s3))
         doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
-    const Watched watched = watch_over(sources);
+    const auto scans = std::make_shared<StormScans>(sources.grids);
+    const Watched watched = watch_over(sources, scans);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {
-        const auto storms =
-            std::make_shared<StormAnswers>(std::make_shared<StormScans>(sources.grids), kept);
+        const auto storms = std::make_shared<const StormAnswers>(scans, kept);
         const auto api = std::make_shared<ApiDoor>(
             ApiSources{.grids = sources.grids,
                        .catalog = setup.catalog,

@@ -23,6 +23,7 @@ enum class EventType : std::uint8_t {
     sweep_gridded,    // a site's grid was made from a growing volume with a new sweep
     volume_complete,  // a site's grid was made from a volume that has ended
     mosaic,           // a grid of a configured domain was made, or made again
+    cells,            // the storm cells of a new grid of reflectivity were found
     grid_evicted,     // grids of a domain and moment are gone
     station_silent,   // nothing came from a station for some time
     station_spoke,    // something came from a station that was silent
@@ -38,6 +39,7 @@ inline constexpr auto event_types = std::to_array<EventTypeFacts>({
     {EventType::sweep_gridded, "sweep_gridded"},
     {EventType::volume_complete, "volume_complete"},
     {EventType::mosaic, "mosaic"},
+    {EventType::cells, "cells"},
     {EventType::grid_evicted, "grid_evicted"},
     {EventType::station_silent, "station_silent"},
     {EventType::station_spoke, "station_spoke"},

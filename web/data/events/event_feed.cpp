@@ -29,6 +29,16 @@ constexpr int asks_for_a_change = 2;
 // If more changes than this wait, drop them all and let clients request everything again.
 constexpr std::size_t most_changes_waiting = 20'000;
 
+std::vector<std::string> areas_of_new_reflectivity(const std::vector<Event>& events) {
+    std::vector<std::string> areas;
+    for (const Event& event : events) {
+        const bool is_finished =
+            event.type == EventType::volume_complete || event.type == EventType::mosaic;
+        if (is_finished && event.moment == level2::Moment::ref) areas.push_back(event.domain);
+    }
+    return areas;
+}
+
 }  // namespace
 
 // The changes that the watch of the cache has reported and the feed has not read yet. The watch may
@@ -190,7 +200,11 @@ void EventFeed::Impl::take_grids(SteadyTime until) {
         if (!event.station.empty() && event.type != EventType::grid_evicted)
             asked[event.station].spoke = now;
     }
+    const std::vector<std::string> areas = areas_of_new_reflectivity(events);
     publish(std::move(events));
+    if (!options.on_reflectivity) return;
+    for (const std::string& area : areas)
+        options.on_reflectivity(area);
 }
 
 void EventFeed::Impl::take_turn(SteadyTime& next_tick, SteadyTime& next_look) {

@@ -15,7 +15,9 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "stormcellar/catalog/catalog.h"
@@ -31,6 +33,9 @@ struct EventFeedOptions {
     // The same catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<EventHub> hub;
+    // Called with the domain after the events of a finished grid of reflectivity were published. It
+    // must be quick.
+    std::function<void(const std::string&)> on_reflectivity = nullptr;
     std::chrono::seconds silent_after{1200};
     std::chrono::milliseconds look_every{2000};  // time between two looks at the catalog
 };

@@ -70,7 +70,7 @@ constexpr std::array events_parameters{
     ApiParameter{"domain", "hear of the grids of these domains, too"},
     ApiParameter{"moment", "of these moments, and of what has none"},
     ApiParameter{"kind",
-                 "volume_begun, sweep_gridded, volume_complete, mosaic, grid_evicted, "
+                 "volume_begun, sweep_gridded, volume_complete, mosaic, cells, grid_evicted, "
                  "station_silent, station_spoke, with commas"},
     ApiParameter{"last_event_id",
                  "go on after this event; the header Last-Event-ID counts before"}};
