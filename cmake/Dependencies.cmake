@@ -36,6 +36,7 @@ stormcellar_package(PkgConfig::libdeflate pkg_check_modules libdeflate REQUIRED 
 stormcellar_package(PkgConfig::zstd pkg_check_modules zstd REQUIRED IMPORTED_TARGET libzstd)
 stormcellar_package(PkgConfig::libarchive pkg_check_modules libarchive REQUIRED IMPORTED_TARGET libarchive)
 stormcellar_package(PkgConfig::libcurl pkg_check_modules libcurl REQUIRED IMPORTED_TARGET libcurl)
+stormcellar_package(PkgConfig::mosquitto pkg_check_modules mosquitto REQUIRED IMPORTED_TARGET libmosquitto)
 stormcellar_package(PkgConfig::pugixml pkg_check_modules pugixml REQUIRED IMPORTED_TARGET pugixml)
 stormcellar_package(PkgConfig::webp pkg_check_modules webp REQUIRED IMPORTED_TARGET libwebp libwebpmux)
 stormcellar_package(PkgConfig::cairo pkg_check_modules cairo REQUIRED IMPORTED_TARGET cairo cairo-ft)

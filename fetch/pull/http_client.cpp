@@ -12,8 +12,9 @@
 namespace stormcellar::pull {
 namespace {
 
-constexpr long http_ok = 200, http_not_modified = 304, http_not_found = 404, http_gone = 410,
-               http_too_many = 429, http_first_error = 500;
+constexpr long http_ok = 200, http_first_redirect = 300, http_not_modified = 304,
+               http_not_found = 404, http_timeout = 408, http_gone = 410, http_too_many = 429,
+               http_first_error = 500;
 constexpr long slowest_bytes_per_s = 200;
 constexpr std::uint64_t most_error_bytes = std::uint64_t{64} << 10;
 
@@ -81,7 +82,7 @@ HttpClient::HttpClient(HttpOptions options)
     handle_->easy = curl_easy_init();
     CURL* const easy = handle_->easy;
     if (easy == nullptr) return;
-    const std::string agent = fmt::format("stormcellar-pull/{}", software_version);
+    const std::string agent = fmt::format("{}/{}", options_.agent, software_version);
     curl_easy_setopt(easy, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(easy, CURLOPT_FOLLOWLOCATION, 0L);
     // Ignore proxies from the environment and the user's .netrc; only the configuration counts.
@@ -105,7 +106,8 @@ HttpClient::~HttpClient() {
     if (handle_->easy != nullptr) curl_easy_cleanup(handle_->easy);
 }
 
-Result<HttpAnswer> HttpClient::get(const HttpRequest& request) {
+// Runs a transfer with one more header, if that is not empty. Fails if there is no whole answer.
+Status HttpClient::transfer(const HttpRequest& request, const std::string& header) {
     Handle& handle = *handle_;
     if (handle.easy == nullptr) return fail(ErrorCode::busy, "libcurl cannot be started");
     handle.request = &request;
@@ -113,38 +115,66 @@ Result<HttpAnswer> HttpClient::get(const HttpRequest& request) {
     handle.taken = {};
     handle.error[0] = '\0';
     retry_after_.reset();
-    const std::string wanted = "If-None-Match: " + request.known_tag;
     curl_slist* const headers =
-        request.known_tag.empty() ? nullptr : curl_slist_append(nullptr, wanted.c_str());
+        header.empty() ? nullptr : curl_slist_append(nullptr, header.c_str());
     curl_easy_setopt(handle.easy, CURLOPT_URL, request.url.c_str());
     curl_easy_setopt(handle.easy, CURLOPT_HTTPHEADER, headers);
     const CURLcode code = curl_easy_perform(handle.easy);
     curl_easy_setopt(handle.easy, CURLOPT_HTTPHEADER, nullptr);
     curl_slist_free_all(headers);
-    const long status = handle.status();
     const std::string& url = request.url;
     if (handle.is_stopped()) return fail(ErrorCode::busy, "{}: stopped", url);
     if (!handle.taken) {
         return fail(handle.taken.error().code, "{}: {}", url, handle.taken.error().message);
     }
-    if (code != CURLE_OK) {
-        const char* const text =
-            handle.error[0] != '\0' ? handle.error.data() : curl_easy_strerror(code);
-        const bool has_begun = is_cut(code) && handle.bytes > 0;
-        return fail(has_begun ? ErrorCode::truncated : ErrorCode::busy, "{}: {}", url, text);
-    }
-    if (status == http_ok || (status == http_not_modified && !request.known_tag.empty())) {
-        return HttpAnswer{status == http_not_modified, handle.header("ETag"), handle.bytes};
-    }
+    if (code == CURLE_OK) return {};
+    const char* const text =
+        handle.error[0] != '\0' ? handle.error.data() : curl_easy_strerror(code);
+    const bool has_begun = is_cut(code) && handle.bytes > 0;
+    return fail(has_begun ? ErrorCode::truncated : ErrorCode::busy, "{}: {}", url, text);
+}
+
+// Returns the error for an answer that is not a success, and notes the wait that it requests.
+tl::unexpected<Error> HttpClient::refusal(const std::string& url) {
+    const long status = handle_->status();
     curl_off_t seconds = 0;
-    curl_easy_getinfo(handle.easy, CURLINFO_RETRY_AFTER, &seconds);
+    curl_easy_getinfo(handle_->easy, CURLINFO_RETRY_AFTER, &seconds);
     if (seconds > 0) retry_after_ = std::chrono::seconds{seconds};
-    const bool passes = status == http_too_many || status >= http_first_error;
+    const bool passes =
+        status == http_timeout || status == http_too_many || status >= http_first_error;
     const bool is_gone = status == http_not_found || status == http_gone;
     return fail(passes    ? ErrorCode::busy
                 : is_gone ? ErrorCode::not_found
                           : ErrorCode::io,
                 "{}: the server answered {}", url, status);
+}
+
+Result<HttpAnswer> HttpClient::get(const HttpRequest& request) {
+    const Status done = transfer(
+        request, request.known_tag.empty() ? std::string{} : "If-None-Match: " + request.known_tag);
+    if (!done) return pass_on(done);
+    const long status = handle_->status();
+    if (status == http_ok || (status == http_not_modified && !request.known_tag.empty())) {
+        return HttpAnswer{status == http_not_modified, handle_->header("ETag"), handle_->bytes};
+    }
+    return refusal(request.url);
+}
+
+Status HttpClient::post(const std::string& url, const std::string& json) {
+    CURL* const easy = handle_->easy;
+    if (easy == nullptr) return fail(ErrorCode::busy, "libcurl cannot be started");
+    curl_easy_setopt(easy, CURLOPT_POSTFIELDSIZE_LARGE, static_cast<curl_off_t>(json.size()));
+    curl_easy_setopt(easy, CURLOPT_POSTFIELDS, json.c_str());  // makes the request a POST
+    const auto ignore = [](std::span<const std::byte>) { return Status{}; };
+    const Status done =
+        transfer({.url = url, .known_tag = {}, .most_bytes = most_error_bytes, .take = ignore},
+                 "Content-Type: application/json");
+    curl_easy_setopt(easy, CURLOPT_HTTPGET, 1L);
+    // The status decides, even if the body of the answer is too long or cut: the server has the
+    // JSON.
+    const long status = handle_->status();
+    if (status >= http_ok && status < http_first_redirect) return {};
+    return done || status >= http_first_redirect ? refusal(url) : done;
 }
 
 }  // namespace stormcellar::pull

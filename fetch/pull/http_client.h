@@ -1,10 +1,11 @@
-// fetch/pull/http_client.h -- makes one GET at a time, over a connection that stays open.
+// fetch/pull/http_client.h -- makes one GET or POST at a time, over a connection that stays open.
 //
 // The client follows no redirects and speaks only http and https. It limits the bytes and the time
 // of each answer. If `stop` is set, a transfer ends within a second or so.
 //
 // Threads   One thread at a time. Any thread may set `stop`.
-// Errors    busy         may pass: no connection, a timeout, 429, 500 and above, or `stop`
+// Errors    busy         may pass: no connection, a timeout, 408, 429, 500 and above, or
+//                        `stop`
 //           truncated    the body ended early
 //           over_budget  more bytes than allowed
 //           not_found    404 and 410
@@ -46,7 +47,8 @@ struct HttpOptions {
     std::chrono::seconds stall{20};     // a transfer fails if no byte comes for this long
     std::chrono::seconds longest{300};  // limit of a whole transfer
     const std::atomic<bool>* stop = nullptr;
-    std::function<void()> beat;  // called at least once a second during a transfer
+    std::function<void()> beat;              // called at least once a second during a transfer
+    std::string agent = "stormcellar-pull";  // the name of the program in requests
 };
 
 class HttpClient {
@@ -57,11 +59,16 @@ class HttpClient {
     ~HttpClient();
 
     [[nodiscard]] Result<HttpAnswer> get(const HttpRequest& request);
+    // Sends JSON by POST. Succeeds if the server answers 200 to 299; ignores the body of the
+    // answer.
+    [[nodiscard]] Status post(const std::string& url, const std::string& json);
     // Returns the wait that the last answer requested (Retry-After), or none.
     [[nodiscard]] std::optional<std::chrono::seconds> retry_after() const { return retry_after_; }
 
   private:
     struct Handle;
+    Status transfer(const HttpRequest& request, const std::string& header);
+    [[nodiscard]] tl::unexpected<Error> refusal(const std::string& url);
     HttpOptions options_;
     std::unique_ptr<Handle> handle_;
     std::optional<std::chrono::seconds> retry_after_;

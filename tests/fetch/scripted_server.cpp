@@ -33,6 +33,15 @@ std::string read_head(int connection) {
     return head;
 }
 
+std::string read_body(int connection, const std::string& length) {
+    std::string body;
+    const std::size_t bytes = length.empty() ? 0 : std::stoul(length);
+    char c = 0;
+    while (body.size() < bytes && ::recv(connection, &c, 1, 0) == 1)
+        body += c;
+    return body;
+}
+
 std::string decoded(std::string_view text) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -128,7 +137,9 @@ void ScriptedServer::join_done() {
 void ScriptedServer::answer(int connection) {
     const std::string head = read_head(connection);
     if (head.size() < 5) return;
-    const Asked asked{head.substr(4, head.find(' ', 4) - 4), head};
+    const std::size_t space = std::min(head.find(' '), head.size() - 1);
+    Asked asked{head.substr(space + 1, head.find(' ', space + 1) - space - 1), head};
+    asked.body = read_body(connection, asked.header("Content-Length"));
     {
         const std::scoped_lock lock(mutex_);
         asked_.push_back(asked);

@@ -18,6 +18,7 @@ namespace stormcellar::testing {
 struct Asked {
     std::string path;  // with its query
     std::string head;  // the request line and all headers
+    std::string body = {};
     // Returns the value of a header; empty if there is none.
     [[nodiscard]] std::string header(std::string_view name) const;
     // Returns a parameter of the query, decoded; empty if there is none.

@@ -28,6 +28,7 @@ const std::map<std::string, Rooms> allowed = {
     {"bunzip", {}},
     {"archive", {"base"}},
     {"fetch", {"base", "cache", "grid", "level2", "service"}},
+    {"notify", {"base", "cache", "fetch/pull", "grid", "level2", "retrieve", "service"}},
     {"level2", {"base", "bunzip"}},
     {"catalog", {"archive", "base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
