@@ -22,10 +22,10 @@
 namespace stormcellar::notify {
 
 struct MqttOptions {
-    std::string user, password;        // of the broker; both empty: none
-    std::chrono::seconds longest{20};  // limit of the whole delivery
+    std::string user = {}, password = {};  // of the broker; both empty: none
+    std::chrono::seconds longest{20};      // limit of the whole delivery
     const std::atomic<bool>* stop = nullptr;
-    std::function<void()> beat;  // called at least once a second
+    std::function<void()> beat = {};  // called at least once a second
 };
 
 [[nodiscard]] Status publish_by_mqtt(const MqttAddress& address, const std::string& text,

@@ -41,14 +41,14 @@ void read_place(TomlTable& table, NotifyRule& rule) {
 
 void read_thresholds(TomlTable& table, Thresholds& thresholds) {
     thresholds.max_dbz = table.number("max_dbz", {0, 80});
-    thresholds.vil_kg_m2 = table.number("vil_kg_m2", {0, 200});
+    thresholds.vil_kg_per_m2 = table.number("vil_kg_per_m2", {0, 200});
     thresholds.mesh_mm = table.number("mesh_mm", {0, 200});
     thresholds.top_km = table.number("top_km", {0, 25});
-    const bool has_any = table.has("max_dbz") || table.has("vil_kg_m2") || table.has("mesh_mm") ||
-                         table.has("top_km");
+    const bool has_any = table.has("max_dbz") || table.has("vil_kg_per_m2") ||
+                         table.has("mesh_mm") || table.has("top_km");
     if (!has_any)
         table.complain("max_dbz",
-                       "or vil_kg_m2, mesh_mm or top_km must be given: otherwise every "
+                       "or vil_kg_per_m2, mesh_mm or top_km must be given: otherwise every "
                        "cell would be sent");
 }
 
@@ -123,6 +123,16 @@ void read_rule(TomlTable table, const std::filesystem::path& file, std::vector<N
     rules.push_back(std::move(rule));
 }
 
+void read_freezing(TomlTable& notify, retrieve::FreezingLevels& freezing) {
+    const auto levels = notify.numbers("freezing_levels_m");
+    if (!levels) return;
+    if (levels->size() != 2)
+        return notify.complain("freezing_levels_m", "must be two heights, as in [4200, 7300]");
+    freezing = {(*levels)[0], (*levels)[1]};
+    if (const auto valid = retrieve::validate(freezing); !valid)
+        notify.complain("freezing_levels_m", valid.error().message);
+}
+
 }  // namespace
 
 Result<NotifyConfig> load_notify_config(const std::filesystem::path& file) {
@@ -136,6 +146,7 @@ Result<NotifyConfig> load_notify_config(const std::filesystem::path& file) {
     paths.leave("state");
     TomlTable notify = root.section("notify");
     read_path_beside(notify, "directory", file, config.directory);
+    read_freezing(notify, config.freezing);
     const auto tables = notify.tables("rule");
     if (tables.size() > most_rules) notify.complain("rule", "has too many tables");
     for (const TomlTable& table : tables)

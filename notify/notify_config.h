@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stormcellar/base/result.h"
+#include "stormcellar/retrieve/hail.h"
 
 namespace stormcellar::notify {
 
@@ -24,28 +25,29 @@ struct MqttAddress {
 
 // Least values of a cell. A cell passes if it reaches all of the values that are given.
 struct Thresholds {
-    std::optional<double> max_dbz, vil_kg_m2, mesh_mm, top_km;
+    std::optional<double> max_dbz = {}, vil_kg_per_m2 = {}, mesh_mm = {}, top_km = {};
     bool operator==(const Thresholds&) const = default;
 };
 
 // Cells of `area` that pass the thresholds within `radius_km` of the place are sent to `url` or to
 // `mqtt`.
 struct NotifyRule {
-    std::string name;  // also the name of the directory of its messages
-    std::string area;  // the station or domain whose REF grids are read
+    std::string name = {};  // also the name of the directory of its messages
+    std::string area = {};  // the station or domain whose REF grids are read
     double latitude_deg = 0, longitude_deg = 0;
     double radius_km = 0;
-    Thresholds thresholds;
+    Thresholds thresholds = {};
     std::chrono::seconds every{std::chrono::minutes{15}};  // between two messages about one cell
-    std::string url;                                       // empty: send to `mqtt`
-    MqttAddress mqtt;
-    std::filesystem::path password_file;  // of the broker, with "USER:PASSWORD"; empty: none
+    std::string url = {};                                  // empty: send to `mqtt`
+    MqttAddress mqtt = {};
+    std::filesystem::path password_file = {};  // of the broker, with "USER:PASSWORD"; empty: none
     bool operator==(const NotifyRule&) const = default;
 };
 
 struct NotifyConfig {
     std::filesystem::path cache = "/var/cache/stormcellar";  // [paths] cache
     std::filesystem::path directory = "/var/lib/stormcellar-notify";
+    retrieve::FreezingLevels freezing;  // for MESH
     std::vector<NotifyRule> rules;
     std::string log_level = "info";  // debug, info, warning or error
     bool operator==(const NotifyConfig&) const = default;

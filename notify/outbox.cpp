@@ -18,7 +18,7 @@ constexpr std::uint64_t most_message_bytes = std::uint64_t{64} << 10;
 
 bool is_of_a_cell(char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
-           c == '-';
+           c == '-' || c == '.';
 }
 
 }  // namespace

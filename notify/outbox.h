@@ -30,7 +30,7 @@ namespace stormcellar::notify {
 // The name of a message. Messages are ordered by time.
 struct MessageName {
     UtcTime time;      // of the grid
-    std::string cell;  // letters, digits, _ and -
+    std::string cell;  // letters, digits, _ - and .
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes a defaulted <=> for a null.
     auto operator<=>(const MessageName&) const = default;
     [[nodiscard]] std::string id() const;  // the name of the file without its ending
