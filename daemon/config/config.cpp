@@ -413,8 +413,9 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     read_log_level(root, config.reloadable.log_level);
     read_status(root.section("status"), file, fixed.paths, fixed.status);
     read_partials(root.section("partials"), file, fixed);
-    root.leave("pull");  // stormcellar-pull checks it
-    root.leave("feed");  // stormcellar-feed checks it
+    root.leave("pull");    // stormcellar-pull checks it
+    root.leave("feed");    // stormcellar-feed checks it
+    root.leave("notify");  // stormcellar-notify checks it
     config.reloadable.loops =
         read_loops(root, std::filesystem::absolute(file).parent_path(),
                    {fixed.paths.drop, fixed.paths.state, fixed.paths.cache}, scenes);

@@ -18,7 +18,7 @@ constexpr std::size_t most_stations = 400;
 // tests/fetch/feed/feed_config_test.cpp loads it, so the test fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
                                                  "catalog", "watch", "partials", "status",
-                                                 "station", "web",   "pull"};
+                                                 "station", "web",   "pull",     "notify"};
 
 void read_stations(TomlTable& feed, std::vector<std::string>& stations) {
     if (feed.is_text("stations")) {

@@ -17,9 +17,9 @@ constexpr std::size_t most_stations = 1024;
 
 // Tables of other programs. The shipped file has all of them, and
 // tests/fetch/pull/pull_config_test.cpp loads it, so the test fails if a name is missing here.
-constexpr std::string_view tables_of_others[] = {"paths",  "ingest",  "cache", "domain",
-                                                 "loop",   "catalog", "watch", "partials",
-                                                 "status", "station", "web",   "feed"};
+constexpr std::string_view tables_of_others[] = {
+    "paths",    "ingest", "cache",   "domain", "loop", "catalog", "watch",
+    "partials", "status", "station", "web",    "feed", "notify"};
 
 void read_domains(TomlTable& from, PullSource& source) {
     const auto domains = from.texts("domains");

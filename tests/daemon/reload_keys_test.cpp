@@ -202,8 +202,10 @@ std::set<std::string> shipped_keys() {
     std::smatch found;
     while (std::getline(file, line)) {
         if (std::regex_match(line, found, header_line)) header = found[1];
-        // The daemon leaves [pull] to stormcellar-pull, and [feed] to stormcellar-feed.
-        if (header.find("[pull") != std::string::npos || header == "[feed]") continue;
+        // Other programs read these tables.
+        if (header.find("[pull") != std::string::npos || header == "[feed]" ||
+            header.find("[notify") != std::string::npos)
+            continue;
         if (std::regex_match(line, found, key_line)) keys.insert(header + " " + found[1].str());
     }
     return keys;

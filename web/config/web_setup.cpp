@@ -12,8 +12,9 @@ namespace stormcellar::web {
 namespace {
 
 // Tables of stormcellard.toml that other programs read.
-constexpr std::array<std::string_view, 10> tables_of_others = {
-    "ingest", "cache", "domain", "partials", "loop", "catalog", "watch", "status", "pull", "feed"};
+constexpr std::array<std::string_view, 11> tables_of_others = {
+    "ingest", "cache",  "domain", "partials", "loop",  "catalog",
+    "watch",  "status", "pull",   "feed",     "notify"};
 
 }  // namespace
 
