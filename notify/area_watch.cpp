@@ -1,5 +1,7 @@
 #include "notify/area_watch.h"
 
+#include <algorithm>
+
 #include "service/log.h"
 #include "stormcellar/cache/grid_file.h"
 
@@ -27,7 +29,7 @@ Result<std::optional<retrieve::TrackedScan>> AreaWatch::look(UtcTime now) {
     const UtcTime from = now - history;
     const auto entries = store->list(area_, level2::Moment::ref, from, now + tolerated_future);
     if (!entries) return pass_on(entries);
-    scans_.erase(scans_.begin(), scans_.lower_bound(from));
+    std::erase_if(scans_, [&](const retrieve::CellScan& scan) { return scan.time < from; });
     damaged_.erase(damaged_.begin(), damaged_.lower_bound(from));
     return read_new(*entries) ? newest(now) : std::nullopt;
 }
@@ -37,7 +39,9 @@ bool AreaWatch::read_new(const std::vector<cache::StoreEntry>& entries) {
     int count = 0;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const UtcTime time = entries[i].time;
-        if (scans_.contains(time) || damaged_.contains(time)) continue;
+        const bool is_read =
+            std::ranges::find(scans_, time, &retrieve::CellScan::time) != scans_.end();
+        if (is_read || damaged_.contains(time)) continue;
         if (count++ == most_in_a_look) return false;
         const auto done =
             read(entries[i], i > 0 ? &entries[i - 1] : nullptr, i + 1 == entries.size());
@@ -61,19 +65,16 @@ Result<bool> AreaWatch::read(const cache::StoreEntry& entry, const cache::StoreE
     if (!scan) return pass_on(scan);
     if (Status moved = add_motion(*scan, *file, before); !moved) return pass_on(moved);
     if (Status whole = file->check_whole(); !whole) return pass_on(whole);
-    scans_.insert_or_assign(entry.time, std::move(*scan));
+    scans_.push_back(std::move(*scan));
     return true;
 }
 
 Result<std::optional<retrieve::TrackedScan>> AreaWatch::newest(UtcTime now) {
     if (scans_.empty()) return std::nullopt;
-    const UtcTime time = scans_.rbegin()->first;
+    const UtcTime time = std::ranges::max_element(scans_, {}, &retrieve::CellScan::time)->time;
     if (time < now - oldest_news || (reported_ && time <= *reported_)) return std::nullopt;
     reported_ = time;
-    std::vector<retrieve::CellScan> scans;
-    for (const auto& [at, scan] : scans_)
-        scans.push_back(scan);
-    auto tracked = retrieve::track_cells(scans);
+    auto tracked = retrieve::track_cells(scans_);
     if (!tracked) return pass_on(tracked);
     if (tracked->empty()) return std::nullopt;
     return std::move(tracked->back());

@@ -10,11 +10,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "stormcellar/cache/store.h"
 #include "stormcellar/retrieve/storm_cells.h"
@@ -46,8 +46,8 @@ class AreaWatch {
     const std::filesystem::path cache_;
     const std::string area_;
     const retrieve::FreezingLevels freezing_;
-    std::map<UtcTime, retrieve::CellScan> scans_;
-    std::set<UtcTime> damaged_;  // grids that cannot be read
+    std::vector<retrieve::CellScan> scans_;  // in any order, one for each time
+    std::set<UtcTime> damaged_;              // grids that cannot be read
     std::optional<UtcTime> reported_;
 };
 

@@ -70,11 +70,20 @@ int notify(const NotifyConfig& config, const std::filesystem::path& file) {
     return is_stopped ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+// Checks the configuration and the password files.
+int check(const NotifyConfig& config, const std::filesystem::path& file) {
+    const std::atomic<bool> stop{false};
+    for (const NotifyRule& rule : config.rules) {
+        if (const auto sender = make_sender(rule, stop, {}); !sender)
+            return complain(program, sender.error());
+    }
+    return say_checked(program, program, file);
+}
+
 int run(const ServiceArguments& arguments) {
     const Result<NotifyConfig> config = load_notify_config(*arguments.config);
     if (!config) return complain(program, config.error());
-    if (!arguments.check) return notify(*config, *arguments.config);
-    return say_checked(program, program, *arguments.config);
+    return arguments.check ? check(*config, *arguments.config) : notify(*config, *arguments.config);
 }
 
 }  // namespace

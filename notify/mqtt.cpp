@@ -44,8 +44,8 @@ ErrorCode code_of(int error) {
                                                                        : ErrorCode::busy;
 }
 
-// Runs the connection until the broker has acknowledged the message. Returns why it did not; empty
-// if it did.
+// Runs the connection until the broker has acknowledged the message. Returns an error if that does
+// not happen.
 Status deliver(mosquitto* client, MqttDelivery& delivery, const MqttOptions& options) {
     const auto stops = [&] { return options.stop != nullptr && *options.stop; };
     const SteadyTime end = steady_now() + options.longest;

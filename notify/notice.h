@@ -24,7 +24,8 @@
 
 namespace stormcellar::notify {
 
-// Where a cell comes closest to a place from now on, if it keeps its motion for an hour.
+// The point of a cell's path of the next hour that is closest to a place. The cell keeps its
+// motion.
 struct ClosestApproach {
     double distance_m = 0;
     UtcTime time;

@@ -157,7 +157,7 @@ TEST_F(NotifyOfAStorm, APasswordFileThatIsMissingStopsTheStart) {
     EXPECT_FALSE(NotifyService::open(real_file_system(), config_));
 }
 
-// The real program, and a broker that starts only after the first try.
+// Runs the real program. The broker starts only after the first try.
 TEST_F(NotifyOfAStorm, TheProgramPublishesToABrokerThatComesBack) {
     STORMCELLAR_NEED_BROKER();
     testing::Broker broker;
