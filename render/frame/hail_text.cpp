@@ -12,7 +12,7 @@ Result<std::string> hail_sensitivity(const grid::BrickView& view, const Scene& s
     const auto largest = largest_hail(view, scene.freezing_levels, threads);
     if (!largest) return pass_on(largest);
     if (!*largest) return std::string{};
-    return fmt::format("heights {:g} m off: MESH {:.0f} mm is {:.0f} to {:.0f} mm",
+    return fmt::format("heights {:g} m off: MESH {:.1f} mm is {:.1f} to {:.1f} mm",
                        retrieve::usual_level_error_m, (*largest)->mesh_mm,
                        (*largest)->range.least_mm, (*largest)->range.most_mm);
 }

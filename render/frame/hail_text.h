@@ -11,9 +11,9 @@
 
 namespace stormcellar::render {
 
-// Returns the sensitivity as text, such as "heights 300 m off: MESH 63 mm is 52 to 74 mm", or an
-// empty text if the product is none of hail or if there is no hail. Errors: as largest_hail()
-// (render/products/hail_field.h).
+// Returns the sensitivity as text, such as "heights 300 m off: MESH 63.1 mm is 52.4 to 74.0 mm".
+// Returns an empty text if the product is none of hail or if there is no hail. Errors: as
+// largest_hail() (render/products/hail_field.h).
 [[nodiscard]] Result<std::string> hail_sensitivity(const grid::BrickView& view, const Scene& scene,
                                                    int threads);
 

@@ -97,6 +97,23 @@ TEST_F(FrameFiles, TheGridIsWhereItWasAskedFor) {
     EXPECT_THAT(outside.err, HasSubstr("outside"));
 }
 
+// On the night of 2010-09-11, migrating birds have echo tops. Rain keeps its VIL.
+TEST_F(FrameFiles, TopsAndVilAreThoseOfWeather) {
+    const std::string night = (data_ / "mosaic-northeast" / "KOKX20100911_011047_V03.gz").native();
+    const std::string rain = volume("KLBB20160601_150025_V06");
+    const auto probe = [&](const std::string& file, const std::string& product,
+                           const std::string& place, const std::string& quality) {
+        return json_of(run({"frame", file, "--product", product, "--quality", quality, "--probe-at",
+                            place, "--json"}))["probe"];
+    };
+    EXPECT_EQ(probe(night, "echotop", "42.1731,-73.4754", "0")["status"], "value");
+    EXPECT_EQ(probe(night, "echotop", "42.1731,-73.4754", "0.5")["status"], "no_echo");
+    const auto all = probe(rain, "vil", "33.6495,-102.3374", "0");
+    const auto weather = probe(rain, "vil", "33.6495,-102.3374", "0.5");
+    EXPECT_GT(all["value"].get<double>(), 10);
+    EXPECT_EQ(weather["value"], all["value"]);
+}
+
 TEST_F(FrameFiles, OptionsOfTheGridAreForFiles) {
     ingest(volume("KTLX20170101_030027_V06"));
     const auto refused =

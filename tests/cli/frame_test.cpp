@@ -167,7 +167,7 @@ TEST_F(Frame, DrawsEveryProduct) {
     for (const char* product :
          {"volume --slices 16", "composite", "cappi --height-km 4.2",
           "section --section 42.1,-76.1,42.3,-75.9", "echotop --echo-top-dbz 30", "vil",
-          "lowest-seen", "highest-seen"}) {
+          "lowest-seen", "highest-seen", "mesh --freezing-levels 3000,6000", "posh", "shi"}) {
         EXPECT_EQ(run(std::string("--domain KBGM -o ") + out("a.png") + " --product " + product),
                   exit_done)
             << product << " " << messages_;
@@ -208,6 +208,25 @@ TEST_F(Frame, TakesTheNewestGridOfTheMoment) {
     EXPECT_THAT(messages_, ::testing::HasSubstr("its grids are of REF, VEL"));
     EXPECT_EQ(run("--domain KBGM --moment RAIN -o " + out("b.png")), exit_bad_usage);
     EXPECT_EQ(run("--domain KBGM --moment VEL --product vil -o " + out("b.png")), exit_bad_usage);
+}
+
+TEST_F(Frame, HailNamesTheHeightsThatItAssumes) {
+    using ::testing::HasSubstr;
+    ASSERT_EQ(run("--domain KBGM --product mesh --freezing-levels 1500,4800 -o " + out("a.tif")),
+              exit_done)
+        << messages_;
+    const std::string map = testing::file_text(out("a.tif"));
+    EXPECT_THAT(map, HasSubstr("0 C at 1500 m, -20 C at 4800 m above sea level, assumed"));
+    EXPECT_THAT(map, HasSubstr("assuming 0 C at 1.5 km and -20 C at 4.8 km"));
+    ASSERT_EQ(run("--domain KBGM --product posh -o " + out("b.png")), exit_done) << messages_;
+    EXPECT_THAT(testing::file_text(out("b.png")),
+                HasSubstr("0 C at 4200 m, -20 C at 7300 m above sea level, assumed"));
+    for (const char* wrong : {"7300,4200", "4.2,7.3", "4200", "4200/7300", "nan,7300"})
+        EXPECT_EQ(run(std::string("--domain KBGM --product mesh --freezing-levels ") + wrong +
+                      " -o " + out("c.png")),
+                  exit_bad_usage)
+            << wrong;
+    EXPECT_FALSE(fs::exists(out("c.png")));
 }
 
 TEST_F(Frame, TakesColorsByNameOrFile) {

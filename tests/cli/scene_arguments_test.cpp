@@ -57,6 +57,8 @@ TEST(SceneOptions, ProductsHaveOptionsOfTheirOwn) {
     EXPECT_EQ(scene->section->to.latitude_deg, 36);
     EXPECT_EQ(scene_of(parse("--product cappi --height-km 4.5"))->cappi_height_m, 4500);
     EXPECT_EQ(scene_of(parse("--product echotop --echo-top-dbz 30"))->echo_top_dbz, 30);
+    EXPECT_EQ(scene_of(parse("--product mesh --freezing-levels 3900,7000"))->freezing_levels,
+              (retrieve::FreezingLevels{3900, 7000}));
     EXPECT_EQ(scene_of(parse("--product composite --zoom 2"))->camera.zoom, 2);
 }
 
@@ -108,6 +110,7 @@ TEST(SceneOptions, WhatAProductDoesNotUseIsRefused) {
          {std::tuple{"--height-km", " 4", but_cappi},
           {"--section", " 35,-98.5,36,-97", but_section},
           {"--echo-top-dbz", " 30", but_tops},
+          {"--freezing-levels", " 3900,7000", " " + all},
           {"--glyphs", "", " " + all},
           {"--azimuth", " 180", flat},
           {"--tilt", " 50", flat},

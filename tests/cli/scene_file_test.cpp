@@ -87,6 +87,11 @@ TEST_F(SceneFileTest, EveryKeyOfAFlatPictureReachesTheScene) {
     const auto tops = scene_of(settings_.scene);
     ASSERT_TRUE(tops) << tops.error().message;
     EXPECT_EQ(tops->echo_top_dbz, 30);
+    settings_ = {};
+    ASSERT_TRUE(read("[picture]\nproduct = \"posh\"\nfreezing_levels_m = [3900, 7000]\n"));
+    const auto hail = scene_of(settings_.scene);
+    ASSERT_TRUE(hail) << hail.error().message;
+    EXPECT_EQ(hail->freezing_levels, (retrieve::FreezingLevels{3900, 7000}));
 }
 
 TEST_F(SceneFileTest, TheKeyDealiasDrawsTheDealiasedVelocity) {
@@ -149,6 +154,8 @@ TEST_F(SceneFileTest, EveryImpossibleValueIsRefusedOnItsLine) {
         {"picture", "section = [95, -98, 36, -97]"},
         {"picture", "section = \"35,-98,36,-97\""},
         {"picture", "echo_top_dbz = 81"},
+        {"picture", "freezing_levels_m = [4200]"},
+        {"picture", "freezing_levels_m = [4200, 99000]"},
         {"picture", "height = 8193"},
         {"camera", "azimuth_deg = inf"},
         {"camera", "tilt_deg = 181"},

@@ -135,7 +135,7 @@ TEST(HailSensitivity, IsWrittenForHailAlone) {
     scene.freezing_levels = low_levels;
     const auto largest = largest_hail(bricks.view(), low_levels, 1).value().value();
     EXPECT_EQ(hail_sensitivity(bricks.view(), scene, 1).value(),
-              fmt::format("heights 300 m off: MESH {:.0f} mm is {:.0f} to {:.0f} mm",
+              fmt::format("heights 300 m off: MESH {:.1f} mm is {:.1f} to {:.1f} mm",
                           largest.mesh_mm, largest.range.least_mm, largest.range.most_mm));
     scene.product = Product::vil;
     EXPECT_EQ(hail_sensitivity(bricks.view(), scene, 1).value(), "");

@@ -41,6 +41,11 @@ TEST(ProductTitle, NamesMomentAndProduct) {
     EXPECT_EQ(product_title(scene_of(Product::section, Moment::vel)),
               "Radial velocity, vertical section");
     EXPECT_EQ(product_title(scene_of(Product::echo_top, Moment::ref)), "Echo tops, 18.5 dBZ");
+    Scene hail = scene_of(Product::mesh, Moment::ref);
+    EXPECT_EQ(product_title(hail),
+              "Maximum expected size of hail (MESH), assuming 0 C at 4.2 km and -20 C at 7.3 km");
+    hail.units.height = Unit::kft;
+    EXPECT_THAT(product_title(hail), ::testing::EndsWith("0 C at 13.8 kft and -20 C at 24 kft"));
 }
 
 TEST(ProductLegend, SaysWhatIsNotInTheColorBar) {
@@ -108,6 +113,12 @@ TEST(MapField, IsTheScenesProduct) {
     EXPECT_EQ(map_field(view, facts, scene, columns, 1)->values[4], 1.25F);
     scene.product = Product::highest_seen;
     EXPECT_EQ(map_field(view, facts, scene, columns, 1)->values[4], 2);
+    scene.product = Product::mesh;
+    scene.freezing_levels = {200, 1300};
+    EXPECT_EQ(map_field(view, facts, scene, columns, 1)->status[4], grid::CellStatus::no_echo)
+        << "40 dBZ make no hail";
+    scene.freezing_levels = {1300, 200};
+    EXPECT_FALSE(validate(scene));
     scene.product = Product::volume;
     EXPECT_FALSE(map_field(view, facts, scene, columns, 1));
 }

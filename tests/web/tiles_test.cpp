@@ -127,10 +127,11 @@ TEST_F(Tiles, EveryLayerOfTheIndexHasATile) {
     std::vector<std::string> names;
     for (const auto& layer : index["domains"][0]["layers"])
         names.push_back(layer["layer"]);
-    EXPECT_EQ(names, (std::vector<std::string>{
-                         "composite.REF", "composite.VEL", "cappi.REF", "cappi.VEL", "echotop",
-                         "vil", "vil-density", "maximum-height", "lowest-seen.REF",
-                         "lowest-seen.VEL", "highest-seen.REF", "highest-seen.VEL"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"composite.REF", "composite.VEL", "cappi.REF", "cappi.VEL",
+                                        "echotop", "vil", "vil-density", "maximum-height",
+                                        "lowest-seen.REF", "lowest-seen.VEL", "highest-seen.REF",
+                                        "highest-seen.VEL", "mesh", "posh", "shi"}));
     for (const std::string& name : names) {
         const render::Image image = tile("7/29/50.png", name);
         int shown = 0;
