@@ -60,11 +60,13 @@ inline level2::Volume later(level2::Volume volume, std::chrono::milliseconds by)
 
 struct House {
     explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {},
-                   std::vector<level2::Moment> moments = {level2::Moment::ref}) {
+                   std::vector<level2::Moment> moments = {level2::Moment::ref},
+                   double quality = 0) {
         catalog.emplace(*catalog::CatalogWriter::open(where / "catalog"));
         store.emplace(*cache::StoreWriter::open(real_file_system(), where / "cache", true));
         IngestOptions options = small_grid();
         options.moments = std::move(moments);
+        options.derived.quality = quality;
         if (living) {
             options.living.scratch = where;
             options.living.has_time = std::move(has_time);

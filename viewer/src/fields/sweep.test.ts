@@ -37,6 +37,10 @@ test('a packed sweep is read as docs/web/packed-grid.md says', () => {
     assert.equal(sweep.firstGateM, 2000);
     assert.equal(sweep.codes[20 * 2 + 5], 19);
     assert.equal((sweep.codes[19]! - sweep.offset) / sweep.scale, -23.5);
+    assert.equal(sweep.leftOut, null, 'all echo is there');
+    const weather = packedSweep([10], 20);
+    [0.5, 0.125].forEach((value, i) => new DataView(weather.buffer).setFloat32(120 + 4 * i, value, true));
+    assert.deepEqual(readPackedSweep(weather).leftOut, { share: 0.125 });
     assert.throws(() => readPackedSweep(packedSweep([10], 20).subarray(0, 140)), PackedError);
     assert.throws(() => readPackedSweep(new Uint8Array(200)), PackedError);
 });

@@ -30,6 +30,7 @@ function sweepOf(codeAt: (azimuthDeg: number) => number): PackedSweep {
         ambiguousCode: 2,
         scale: 10,
         offset: 500,
+        leftOut: null,
         gateStride: gates,
         azimuthsDeg: Float32Array.from({ length: radials }, (_, i) => i + 0.5),
         elevationsDeg: new Float32Array(radials).fill(0.5),

@@ -19,6 +19,7 @@ import {
     leastRotation,
     rotationMoment,
     sweepMoment,
+    sweepQuality,
     usualLayers,
     veilsFolded,
 } from '../scene/layers';
@@ -359,6 +360,8 @@ export class LayerMaker {
             said.push(texts.layers.rotationTold(leastRotation) + (why && ` (${why})`));
         }
         if (layers.hasMaximum) said.push(texts.layers.maximumTold);
+        const leftOut = texts.layers.leftOut('', shown.loaded.grid.leftOut);
+        if (leftOut) said.push(leftOut);
         if (layers.sweepDeg !== null) said.push(this.sweepTold(shown));
         return said;
     }
@@ -367,7 +370,10 @@ export class LayerMaker {
         const found = this.sweepOf(shown);
         const isDealiased = sweepMoment(this.app.state.layers, shown.moment) !== shown.moment;
         const say = isDealiased ? texts.layers.dealiasedSweepAt : texts.layers.sweepAt;
-        if (found) return say(found.drawn.station, cutText(found.row, found.rows));
+        if (found) {
+            const { station: of, gates: drawn } = found.drawn;
+            return say(of, cutText(found.row, found.rows)) + texts.layers.leftOut(', ', drawn.leftOut);
+        }
         const error = this.sweeps.errorOf(this.sweepKey(shown));
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
@@ -405,9 +411,9 @@ export class LayerMaker {
     private sweepKey(shown: Shown): string {
         const { loaded } = shown;
         const { layers } = this.app.state;
-        const { sweepDeg, sweepNumber } = layers;
+        const { sweepDeg, sweepNumber, isSweepWeather } = layers;
         const moment = sweepMoment(layers, shown.moment);
-        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber].join(' ');
+        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber, isSweepWeather].join(' ');
     }
     private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
         const { layers } = this.app.state;
@@ -419,7 +425,8 @@ export class LayerMaker {
             const { time, rows } = await this.rowsOf(shown, station);
             const row = sweepDeg !== null && cutOf(rows, moment, sweepDeg, sweepNumber);
             if (!row) throw new ApiError(404, texts.layers.noSweep(station));
-            const read = readPackedSweep(new Uint8Array(await gates(station, time, row.sweep, moment)));
+            const bytes = await gates(station, time, row.sweep, moment, sweepQuality(layers));
+            const read = readPackedSweep(new Uint8Array(bytes));
             return {
                 rows,
                 row,

@@ -51,3 +51,10 @@ test('data of a radar whose clock is ahead are in the future, and not new (2026-
     assert.equal(texts.start.age(-601), 'in the future');
     assert.equal(texts.start.age(-599), '0 min ago');
 });
+
+test('the page tells how much echo a grid or a sweep lacks', () => {
+    const { leftOut } = texts.layers;
+    assert.equal(leftOut('', null), '');
+    assert.equal(leftOut(', ', { share: 0.123 }), ', weather only: 12 % of the echo left out');
+    assert.equal(leftOut('', { share: -1 }), 'weather only', 'the sites of a mosaic differ');
+});

@@ -1,7 +1,7 @@
 // Has every text of the page, so that it can be translated.
 
 import { isAhead } from '../time/timeline';
-import { CellState } from '../wire/packed_grid';
+import { CellState, LeftOutEcho } from '../wire/packed_grid';
 
 function span(seconds: number): string {
     const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
@@ -226,6 +226,12 @@ export const texts = {
         sweepAt: (station: string, cut: string) => `sweep of ${station}: ${cut}`,
         dealiasedSweepAt: (station: string, cut: string) => `sweep of ${station}, dealiased: ${cut}`,
         dealiasSweep: 'Dealiased',
+        weatherSweep: 'Weather only',
+        leftOut: (before: string, echo: LeftOutEcho | null) =>
+            echo === null
+                ? ''
+                : `${before}weather only` +
+                  (echo.share >= 0 ? `: ${Math.round(100 * echo.share)} % of the echo left out` : ''),
         sweepComes: (station: string) => `loading the sweep of ${station}`,
         sweepFailed: (station: string) => `the sweep of ${station} could not be loaded`,
         noSweep: (station: string) => `no sweep of ${station} for this time`,

@@ -24,6 +24,7 @@ const all: Layers = {
     hasMaximum: true,
     sweepDeg: 1.45,
     isSweepDealiased: true,
+    isSweepWeather: true,
     hasGlyphs: true,
     hasRotation: true,
     sweepNumber: 3,
@@ -58,6 +59,14 @@ test('the command draws the glyphs of a sweep of velocities', () => {
     assert(command('REF', { hasVolume: true, sweepDeg: null, hasRotation: true }).includes(' --rotation '));
     assert.equal(beyondCommand({ ...usualLayers, hasRotation: true }, 1), null);
     assert.equal(beyondCommand({ ...usualLayers, hasVolume: false, hasRotation: true }, 1), 'surface');
+});
+
+test('the command leaves out the echo that the sweep lacks, and no other product does', () => {
+    const command = (change: Partial<Layers>) =>
+        productOf({ ...usualLayers, hasVolume: false, isSweepWeather: true, ...change })!.join(' ');
+    assert.equal(command({ sweepDeg: 0.5 }), '--product ppi --elevation 0.5 --quality 0.5');
+    assert.equal(command({ sweepDeg: 0.5, isSweepWeather: false }), '--product ppi --elevation 0.5');
+    assert.equal(command({ hasMaximum: true }), '--product composite');
 });
 
 test('the command draws one flat layer, or the volume with its light', () => {

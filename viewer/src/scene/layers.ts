@@ -27,6 +27,7 @@ export interface Layers {
     sweepDeg: number | null; // elevation of the sweep that is shown
     sweepNumber: number | null; // number of the sweep in its volume (see cutOf()); null: the sweep that pictures take
     isSweepDealiased: boolean; // the sweep has dealiased velocities although the shown moment is the measured velocity
+    isSweepWeather: boolean; // the sweep lacks echo that is probably no weather
     hasGlyphs: boolean; // the sweep of a velocity has beam glyphs
     hasRotation: boolean; // columns of strong azimuthal shear are drawn
     crop: Crop | null; // box to which volume and surface are cut
@@ -49,6 +50,9 @@ export const isBelow = (moment: string, value: number): boolean =>
 export const sweepMoment = ({ isSweepDealiased }: Layers, moment: string): string =>
     (isSweepDealiased ? derivedOf(moment) : null) ?? moment;
 
+// Returns the least probability of weather of the sweep's echo; 0: all echo.
+export const sweepQuality = ({ isSweepWeather }: Layers): number => (isSweepWeather ? 0.5 : 0);
+
 // Returns true if range folded air is veiled. If the user has not chosen, a volume of velocities or spectrum widths
 // veils it, because such air is not clear. `moment` is empty while nothing is shown.
 export const veilsFolded = ({ hasFolded, hasVolume }: Layers, moment: string): boolean =>
@@ -70,6 +74,7 @@ export const usualLayers: Layers = {
     sweepDeg: null,
     sweepNumber: null,
     isSweepDealiased: false,
+    isSweepWeather: false,
     hasGlyphs: false,
     hasRotation: false,
     crop: null,
@@ -101,6 +106,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.sweepDeg !== null) parts.push(['elevation', rounded(layers.sweepDeg, 2)]);
     if (layers.sweepDeg !== null && layers.sweepNumber !== null) parts.push(['sweep', String(layers.sweepNumber)]);
     if (layers.sweepDeg !== null && layers.isSweepDealiased) parts.push(['dealiased', '1']);
+    if (layers.sweepDeg !== null && layers.isSweepWeather) parts.push(['weather', '1']);
     if (layers.hasGlyphs) parts.push(['glyphs', '1']);
     if (layers.hasRotation) parts.push(['rotation', '1']);
     const { crop } = layers;
@@ -162,6 +168,7 @@ export function layersOf(query: URLSearchParams): Layers {
         sweepDeg: one('elevation', -5, 90),
         sweepNumber: Number.isInteger(sweep) ? sweep : null,
         isSweepDealiased: query.get('dealiased') === '1',
+        isSweepWeather: query.get('weather') === '1',
         hasGlyphs: query.get('glyphs') === '1',
         hasRotation: query.get('rotation') === '1',
         crop: cropOf(query.get('crop-km')),
@@ -208,7 +215,8 @@ export function productOf(layers: Layers): string[] | null {
             layers.sweepNumber === null
                 ? ['--elevation', rounded(layers.sweepDeg, 2)]
                 : ['--sweep', String(layers.sweepNumber)];
-        return ['--product', 'ppi', ...which];
+        const quality = sweepQuality(layers);
+        return ['--product', 'ppi', ...which, ...(quality > 0 ? ['--quality', String(quality)] : [])];
     }
     return layers.hasMaximum ? ['--product', 'composite'] : null;
 }

@@ -97,6 +97,7 @@ function sweepOf(elevationDeg: number, firstGateM: number, codeOf: (radial: numb
         ambiguousCode: -1,
         scale: 1,
         offset: 0,
+        leftOut: null,
         gateStride: gateCount,
         azimuthsDeg: Float32Array.from({ length: radialCount }, (_, i) => i + 0.5),
         elevationsDeg: new Float32Array(radialCount).fill(elevationDeg),

@@ -294,6 +294,14 @@ export async function rawAt(station: string, time: string): Promise<RawVolume | 
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return (await told<{ sweeps: SweepRow[] }>(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).sweeps;
 }
-export function gates(station: string, time: string, sweep: number, moment: string): Promise<ArrayBuffer> {
-    return bytesOf(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}`);
+// Returns packed gates without echo whose probability of weather is less than `quality`; 0: all echo.
+export function gates(
+    station: string,
+    time: string,
+    sweep: number,
+    moment: string,
+    quality: number,
+): Promise<ArrayBuffer> {
+    const query = quality > 0 ? `?quality=${quality}` : '';
+    return bytesOf(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps/${sweep}/${moment}${query}`);
 }

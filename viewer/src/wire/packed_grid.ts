@@ -25,6 +25,14 @@ export const enum BrickKind {
     codes = 2,
 }
 
+// Echo that is left out because it is probably no weather.
+export interface LeftOutEcho {
+    share: number; // of the echo; negative: unknown
+}
+// Reads it where a packed form has the least probability and the share; null if all echo is there.
+export const leftOutAt = (view: DataView, at: number): LeftOutEcho | null =>
+    view.getFloat32(at, true) > 0 ? { share: view.getFloat32(at + 4, true) } : null;
+
 export interface Site {
     latitudeDeg: number;
     longitudeDeg: number;
@@ -59,6 +67,7 @@ export interface PackedGrid extends GridPlace {
     endMs: number;
     isPartial: boolean;
     isProvisional: boolean;
+    leftOut: LeftOutEcho | null;
     levelsM: Float64Array;
     sites: Site[];
     // One entry for each brick, z fastest, then y, then x.
@@ -243,6 +252,7 @@ export function readGridOrTable(bytes: Uint8Array): { grid: PackedGrid; isWhole:
         endMs: header.ms(152),
         isPartial: (u32(172) & 1) !== 0,
         isProvisional: (u32(172) & 2) !== 0,
+        leftOut: leftOutAt(header.data, 248),
         levelsM,
         sites: readSites(header.data, header.big(216), u32(200)),
         kind: new Uint8Array(rows),

@@ -4,7 +4,7 @@
 // Errors: a PackedError if the bytes are cut or are not a packed sweep.
 
 import { isDerivedNumber } from './moments';
-import { CellState, PackedError } from './packed_grid';
+import { CellState, LeftOutEcho, PackedError, leftOutAt } from './packed_grid';
 
 export interface PackedSweep {
     latitudeDeg: number;
@@ -18,6 +18,7 @@ export interface PackedSweep {
     ambiguousCode: number; // -1 if no gate can be ambiguous
     scale: number; // value = (code - offset) / scale
     offset: number;
+    leftOut: LeftOutEcho | null;
     gateStride: number; // number of codes for each radial
     azimuthsDeg: Float32Array; // azimuth of each radial
     elevationsDeg: Float32Array;
@@ -65,6 +66,7 @@ export function readPackedSweep(bytes: Uint8Array): PackedSweep {
         ambiguousCode: isDerivedNumber(u32(48)) ? u32(92) - 1 : -1,
         scale: f32(96),
         offset: f32(100),
+        leftOut: leftOutAt(view, 120),
         gateStride,
         azimuthsDeg: new Float32Array(count),
         elevationsDeg: new Float32Array(count),

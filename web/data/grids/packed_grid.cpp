@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 
+#include "retrieve/derived/quality_note.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -49,6 +51,10 @@ PackedHeader header_of(const PackedSource& source) {
     header.halved_by = source.halved_by;
     header.flags =
         (description.provenance.partial ? 1U : 0U) | (description.provenance.provisional ? 2U : 0U);
+    if (const auto quality = retrieve::quality_note_in(description.provenance.notes)) {
+        header.least_probability = static_cast<float>(quality->least);
+        header.left_out_share = static_cast<float>(quality->share.value_or(-1));
+    }
     return header;
 }
 

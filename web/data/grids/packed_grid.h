@@ -68,7 +68,9 @@ struct PackedHeader {
     std::uint64_t table_offset = 0;
     std::uint64_t states_offset = 0;
     std::uint64_t codes_offset = 0;
-    std::uint64_t reserved = 0;
+    // Echo with a lesser probability of weather is left out; 0: all echo is here.
+    float least_probability = 0;
+    float left_out_share = 0;  // of the echo; negative if the sites of a mosaic differ
 };
 static_assert(sizeof(PackedHeader) == 256);
 static_assert(offsetof(PackedHeader, version) == 8);
@@ -114,6 +116,8 @@ static_assert(offsetof(PackedHeader, sites_offset) == 216);
 static_assert(offsetof(PackedHeader, table_offset) == 224);
 static_assert(offsetof(PackedHeader, states_offset) == 232);
 static_assert(offsetof(PackedHeader, codes_offset) == 240);
+static_assert(offsetof(PackedHeader, least_probability) == 248);
+static_assert(offsetof(PackedHeader, left_out_share) == 252);
 
 struct PackedSite {
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;

@@ -202,11 +202,18 @@ export class LayersPanel {
     private sweepParts(): HTMLElement[] {
         const elevation = make('select', { id: 'sweep-elevation' });
         elevation.addEventListener('change', () => this.chooseCut(Number(elevation.value)));
-        const dealiased = make('input', { id: 'sweep-dealiased', type: 'checkbox' });
-        dealiased.addEventListener('change', () => this.set({ isSweepDealiased: dealiased.checked }));
-        const label = labeled(words.dealiasSweep, dealiased);
-        label.className = 'toggle';
-        return [labeled(words.elevation, elevation), label];
+        const flag = (id: string, text: string, name: 'isSweepDealiased' | 'isSweepWeather') => {
+            const box = make('input', { id, type: 'checkbox' });
+            box.addEventListener('change', () => this.set({ [name]: box.checked }));
+            const label = labeled(text, box);
+            label.className = 'toggle';
+            return label;
+        };
+        return [
+            labeled(words.elevation, elevation),
+            flag('sweep-dealiased', words.dealiasSweep, 'isSweepDealiased'),
+            flag('sweep-weather', words.weatherSweep, 'isSweepWeather'),
+        ];
     }
 
     private cropParts(): HTMLElement[] {
@@ -403,6 +410,7 @@ export class LayersPanel {
         const dealiased = element<HTMLInputElement>('sweep-dealiased');
         dealiased.checked = this.layers.isSweepDealiased;
         dealiased.closest('label')!.hidden = derivedOf(shown) === null;
+        element<HTMLInputElement>('sweep-weather').checked = this.layers.isSweepWeather;
         const select = element<HTMLSelectElement>('sweep-elevation');
         const textOf = (number: string) =>
             cutText(

@@ -1,0 +1,20 @@
+// retrieve/derived/quality_note.h -- the numbers in notes about echo that is probably no weather.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace stormcellar::retrieve {
+
+struct QualityNote {
+    double least = 0;             // echo with a lesser probability of weather is left out
+    std::optional<double> share;  // of the echo; none if the sites of a mosaic differ
+};
+
+// Reads what quality_in_notes() returns. None if no note says that echo is left out.
+[[nodiscard]] std::optional<QualityNote> quality_note_in(std::span<const std::string> notes);
+
+}  // namespace stormcellar::retrieve

@@ -1,0 +1,39 @@
+// Tests that the numbers of notes about echo that is left out are read.
+#include "retrieve/derived/quality_note.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "retrieve/derived/quality_moment.h"
+
+namespace stormcellar::retrieve {
+namespace {
+
+TEST(QualityNote, HasTheThresholdAndTheShare) {
+    const auto of_file = quality_note_in(std::vector{weather_note(0.5, {1000, 123})});
+    ASSERT_TRUE(of_file);
+    EXPECT_EQ(of_file->least, 0.5);
+    EXPECT_NEAR(of_file->share.value(), 0.123, 1e-9);
+    const auto without_echo = quality_note_in(std::vector{weather_note(0.25, {})});
+    ASSERT_TRUE(without_echo);
+    EXPECT_EQ(without_echo->least, 0.25);
+    EXPECT_EQ(without_echo->share, 0.0);
+}
+
+TEST(QualityNote, HasNoShareIfTheSitesOfAMosaicDiffer) {
+    const auto mosaic = quality_note_in(std::vector{"KBGM: " + weather_note(0.5, {1000, 123}),
+                                                    "KTYX: " + weather_note(0.5, {1000, 456})});
+    ASSERT_TRUE(mosaic);
+    EXPECT_EQ(mosaic->least, 0.5);
+    EXPECT_FALSE(mosaic->share);
+}
+
+TEST(QualityNote, IsNoneWithoutSuchANote) {
+    EXPECT_FALSE(quality_note_in({}));
+    EXPECT_FALSE(quality_note_in(std::vector<std::string>{"storm motion 240/15, as given"}));
+    EXPECT_FALSE(quality_note_in(std::vector<std::string>{quality_words + "half"}));
+}
+
+}  // namespace
+}  // namespace stormcellar::retrieve
