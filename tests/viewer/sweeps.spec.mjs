@@ -36,6 +36,18 @@ test('the page shows the cut that pictures take, and any other cut on request', 
   expect(await viewer.copiedBy('command')).toContain(`--product ppi --sweep ${other.sweep} `);
 });
 
+test('the page leaves out echo that is probably no weather, and says how much', async ({ viewer, above }) => {
+  await viewer.open(`${above}&elevation=0.5`);
+  await expect(told(viewer)).not.toContainText('weather only');
+  await viewer.settled(() => viewer.press('sweep-weather'));
+  await expect(told(viewer)).toContainText(/, weather only: \d+ % of the echo left out/);
+  await viewer.keep('weather-only');
+  await viewer.catchCopies();
+  expect(await viewer.copiedBy('command')).toContain('--product ppi --elevation 0.5 --quality 0.5 ');
+  await viewer.open(`${above}&elevation=0.5&weather=1`);
+  await expect(told(viewer)).toContainText('weather only');
+});
+
 test.describe('the page says what it does not draw', () => {
   test.use({ provoked: /404|500|ERR_CONNECTION_RESET/ });
 
