@@ -1,6 +1,7 @@
-// stormcellar/retrieve/derived_moments.h -- the moments that come from velocities: VELD, the
+// stormcellar/retrieve/derived_moments.h -- the moments that come from others: VELD, the
 // dealiased velocity; SRV, the dealiased velocity relative to a storm; AZSH, the azimuthal shear,
-// and DIVG, the radial divergence, of the dealiased velocity.
+// and DIVG, the radial divergence, of the dealiased velocity; POW, the probability of weather
+// (quality.h); KDP, the specific differential phase (kdp.h); RATE, the rain rate (rain_rate.h).
 //
 // SRV is VELD minus the part of the storm's horizontal motion along the beam,
 //     (u sin a + v cos a) cos e
@@ -12,6 +13,10 @@
 // are in units of 0.001 s^-1 in steps of 1e-5 s^-1, and keep the flags of VEL. A gate with echo is
 // ambiguous where VELD is, where no plane can be fitted, and where the value would exceed 0.32
 // s^-1.
+//
+// KDP has the gates and the flags of PHI, in steps of 0.005 degrees/km; a gate with a phase is
+// ambiguous where no KDP can be fitted. RATE has those of REF, in steps of 0.02 mm/h up to 1300; a
+// sweep without PHI takes KDP from the nearest sweep that has it.
 //
 // Units     As in storm_motion.h. The motion is rounded to whole degrees and to 0.1 m/s before its
 //           use, so that its text gives all of it.
@@ -86,8 +91,9 @@ struct DerivedVolume {
     std::vector<std::string> notes;
 };
 
-// Returns a copy of the volume with the wanted moments. Unless POW is wanted, or options.quality is
-// given, the copy has only velocities and the moments derived from them. Errors: see above.
+// Returns a copy of the volume with the wanted moments. Unless POW, KDP or RATE is wanted, or
+// options.quality is given, the copy has only velocities and the moments derived from them. Errors:
+// see above.
 [[nodiscard]] Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
                                                        std::span<const level2::Moment> wanted,
                                                        const DerivedOptions& options = {});
