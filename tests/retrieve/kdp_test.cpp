@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,11 +14,13 @@
 namespace stormcellar::retrieve {
 namespace {
 
-using level2::Moment;
-
 double core(double km, double middle_km, double width_km) {
     const double x = (km - middle_km) / width_km;
     return std::exp(-0.5 * x * x);
+}
+
+std::vector<float> values_of(const level2::Volume& volume) {
+    return specific_differential_phases(volume).at(0).deg_per_km;
 }
 
 struct RampCase {
@@ -112,7 +115,7 @@ TEST(Kdp, IsNotFittedToPhasesWithoutCorrelation) {
     level2::Volume volume = volume_of_ramp({[](double) { return 1.0; }});
     for (std::uint8_t& code : volume.sweeps[0].moments[1].codes8)
         code = 120;  // a correlation of 0.6
-    for (const float value : specific_differential_phases(volume).at(0).deg_per_km)
+    for (const float value : values_of(volume))
         EXPECT_TRUE(std::isnan(value));
 }
 
@@ -123,7 +126,7 @@ TEST(Kdp, HardCasesGiveNoNumbers) {
     auto& codes = lone.sweeps[0].moments[0].codes16;
     for (std::size_t at = 0; at < codes.size(); ++at)
         if (at % ramp_gates > 3) codes[at] = 1;  // range folded
-    for (const float value : specific_differential_phases(lone).at(0).deg_per_km)
+    for (const float value : values_of(lone))
         EXPECT_TRUE(std::isnan(value)) << "four gates are too few";
     level2::Volume without = volume;
     without.sweeps[0].moments.pop_back();
@@ -135,7 +138,7 @@ TEST(Kdp, HardCasesGiveNoNumbers) {
     level2::Volume coarse = volume;
     for (auto& moment : coarse.sweeps[0].moments)
         moment.gate_spacing_m = 1'000'000;
-    for (const float value : specific_differential_phases(coarse).at(0).deg_per_km)
+    for (const float value : values_of(coarse))
         EXPECT_FALSE(std::isinf(value));
 }
 
