@@ -120,16 +120,16 @@ level2::Sweep velocities_of(const level2::Sweep& sweep) {
 
 constexpr std::string_view shear_words = "shear of velocities dealiased by the rung ";
 
-// Returns the text after these words, up to a comma, if all notes with them agree.
-std::optional<std::string> text_in_notes(std::span<const std::string> notes,
-                                         std::string_view words) {
+// Returns the text after these words, up to a character, if all notes with them agree.
+std::optional<std::string> text_in_notes(std::span<const std::string> notes, std::string_view words,
+                                         char end = ',') {
     std::optional<std::string> text;
     for (const std::string& note : notes) {
         const std::size_t at = note.find(words);
         const bool is_at_start = at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "));
         if (!is_at_start) continue;
         const std::size_t from = at + words.size();
-        std::string found = note.substr(from, note.find(',', from) - from);
+        std::string found = note.substr(from, note.find(end, from) - from);
         if (text && *text != found) return std::nullopt;
         text = std::move(found);
     }
@@ -235,7 +235,7 @@ std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {
 }
 
 std::string quality_in_notes(std::span<const std::string> notes) {
-    if (const auto text = text_in_notes(notes, quality_words)) return quality_words + *text;
+    if (const auto text = text_in_notes(notes, quality_words, '\n')) return quality_words + *text;
     // The sites of a mosaic have different shares.
     for (const std::string& note : notes) {
         const std::size_t at = note.find(quality_words);

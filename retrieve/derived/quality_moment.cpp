@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <span>
@@ -53,12 +54,29 @@ SweepMoment quality_moment(const SweepMoment& reflectivity, const SweepQuality& 
     return made;
 }
 
+// Returns for example ": birds and insects 8.1 %, ground clutter 3.0 %"; empty if no echo was
+// removed.
+std::string largest_kinds(const LeftOutEcho& left_out) {
+    constexpr std::size_t most_kinds = 2;
+    std::vector<std::pair<std::int64_t, EchoKind>> kinds;
+    for (std::size_t i = 0; i < echo_kind_count; ++i)
+        if (left_out.of_kind[i] > 0)
+            kinds.emplace_back(left_out.of_kind[i], static_cast<EchoKind>(i));
+    std::ranges::stable_sort(kinds, std::greater{}, &std::pair<std::int64_t, EchoKind>::first);
+    std::string text;
+    for (const auto& [gates, kind] : std::span(kinds).first(std::min(kinds.size(), most_kinds)))
+        text += fmt::format("{} {} {:.1f} %", text.empty() ? ":" : ",", echo_kind_name(kind),
+                            left_out.percent(gates));
+    return text;
+}
+
 // Removes gates of one moment after another.
 class WeatherKeeper {
   public:
     WeatherKeeper(level2::Volume& volume, double least)
         : volume_(volume),
           qualities_(weather_probabilities(volume)),
+          kinds_(echo_kinds(volume, qualities_, least)),
           least_(static_cast<float>(least)) {}
 
     // Removes gates of one sweep.
@@ -84,6 +102,12 @@ class WeatherKeeper {
         const auto found = std::ranges::find(qualities_, sweep, &SweepQuality::sweep);
         return found != qualities_.end() ? &*found : nullptr;
     }
+    // Returns the kinds of the moment that was judged.
+    [[nodiscard]] const SweepKinds& kinds_of(const SweepQuality& quality) const {
+        return *std::ranges::find_if(kinds_, [&](const SweepKinds& of) {
+            return of.sweep == quality.sweep && of.moment == quality.moment;
+        });
+    }
     void keep_gates(SweepMoment& moment, const SweepMoment& judged, const SweepQuality& quality,
                     const std::vector<std::int32_t>& radials) {
         if (moment.gate_spacing_m <= 0) return;
@@ -93,12 +117,11 @@ class WeatherKeeper {
                 (moment.range_m(static_cast<std::int32_t>(gate)) - judged.first_gate_m) /
                 judged.gate_spacing_m);
         const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
+        const std::vector<EchoKind>& kinds = kinds_of(quality).kinds;
         for (std::size_t radial = 0; radial < moment.gate_counts.size(); ++radial) {
             if (radials[radial] < 0) continue;
             const auto stride = static_cast<std::size_t>(judged.gate_stride);
-            const std::span probabilities =
-                std::span(quality.probabilities)
-                    .subspan(static_cast<std::size_t>(radials[radial]) * stride, stride);
+            const std::size_t row = static_cast<std::size_t>(radials[radial]) * stride;
             for (std::size_t gate = 0; gate < moment.gate_counts[radial]; ++gate) {
                 const std::int64_t there = gates[gate];
                 if (there < 0 || there >= judged.gate_stride) continue;
@@ -106,11 +129,12 @@ class WeatherKeeper {
                 const bool is_echo =
                     moment.code(radial, static_cast<std::int32_t>(gate)) >= first_valid;
                 if (!is_echo) continue;
-                const float probability = probabilities[static_cast<std::size_t>(there)];
+                const std::size_t judged_at = row + static_cast<std::size_t>(there);
+                const float probability = quality.probabilities[judged_at];
                 const bool is_removed = !std::isnan(probability) && rounded(probability) < least_;
                 if (moment.moment == Moment::ref) {
                     ++left_out_.echo;
-                    left_out_.left_out += is_removed ? 1 : 0;
+                    if (is_removed) left_out_.count(kinds[judged_at]);
                 }
                 if (!is_removed) continue;
                 if (moment.word_size_bits == 8)
@@ -123,11 +147,29 @@ class WeatherKeeper {
 
     level2::Volume& volume_;
     std::vector<SweepQuality> qualities_;
+    std::vector<SweepKinds> kinds_;
     float least_;
     LeftOutEcho left_out_;
 };
 
 }  // namespace
+
+LeftOutEcho& LeftOutEcho::operator+=(const LeftOutEcho& other) {
+    echo += other.echo;
+    left_out += other.left_out;
+    for (std::size_t i = 0; i < of_kind.size(); ++i)
+        of_kind[i] += other.of_kind[i];
+    return *this;
+}
+
+void LeftOutEcho::count(EchoKind kind) {
+    ++left_out;
+    ++of_kind[static_cast<std::size_t>(kind)];
+}
+
+double LeftOutEcho::percent(std::int64_t gates) const {
+    return echo > 0 ? 100 * static_cast<double>(gates) / static_cast<double>(echo) : 0;
+}
 
 void add_quality_moment(level2::Volume& volume) {
     for (SweepQuality& quality : weather_probabilities(volume)) {
@@ -138,10 +180,8 @@ void add_quality_moment(level2::Volume& volume) {
 }
 
 std::string weather_note(double least, const LeftOutEcho& left_out) {
-    const double share = left_out.echo > 0 ? static_cast<double>(left_out.left_out) /
-                                                 static_cast<double>(left_out.echo)
-                                           : 0;
-    return fmt::format("{}{:g}; {:.1f} % of the echo left out", quality_words, least, 100 * share);
+    return fmt::format("{}{:g}; {:.1f} % of the echo left out{}", quality_words, least,
+                       left_out.percent(left_out.left_out), largest_kinds(left_out));
 }
 
 LeftOutEcho keep_weather(level2::Volume& volume, double least) {

@@ -6,11 +6,13 @@
 // Threads   Pure functions.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/echo_kinds.h"
 
 namespace stormcellar::retrieve {
 
@@ -20,15 +22,16 @@ void add_quality_moment(level2::Volume& volume);
 // The reflectivity gates with echo, and those of them that are left out.
 struct LeftOutEcho {
     std::int64_t echo = 0, left_out = 0;
+    std::array<std::int64_t, echo_kind_count> of_kind{};  // of those left out
 
-    LeftOutEcho& operator+=(const LeftOutEcho& other) {
-        echo += other.echo;
-        left_out += other.left_out;
-        return *this;
-    }
+    LeftOutEcho& operator+=(const LeftOutEcho& other);
+    void count(EchoKind kind);  // of a gate that is left out
+    // Returns the share of the echo.
+    [[nodiscard]] double percent(std::int64_t gates) const;
 };
 
-// Returns the note for the provenance of grids, which gives `least` and the share left out.
+// Returns the note for the provenance of grids: `least`, the share left out, and the two largest
+// kinds of what was left out, with their shares (echo_kinds.h).
 [[nodiscard]] std::string weather_note(double least, const LeftOutEcho& left_out);
 
 // Makes gates below threshold, in all measured moments, if their probability of weather is less

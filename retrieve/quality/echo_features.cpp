@@ -16,10 +16,33 @@ using level2::Moment;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
-// The place of each gate in another field, and the radials there.
-struct Elsewhere {
-    std::vector<std::int32_t> radials;  // -1: none
-    std::vector<std::int32_t> gates;    // -1: none
+// The place of each gate in another field with other radials.
+class Elsewhere {
+  public:
+    // `radials` and `gates` are the numbers there, or -1 for none.
+    Elsewhere(const std::vector<std::int32_t>& radials, std::size_t radials_there,
+              std::vector<std::int32_t> gates)
+        : radials_here_(radials_there + 1), gates_(std::move(gates)) {
+        for (std::size_t radial = 0; radial < radials.size(); ++radial) {
+            const std::int32_t there = radials[radial];
+            const std::size_t slot = there >= 0 ? static_cast<std::size_t>(there) : radials_there;
+            radials_here_[slot].push_back(static_cast<std::uint32_t>(radial));
+        }
+    }
+
+    // Returns the radials here whose place is a radial there.
+    [[nodiscard]] std::span<const std::uint32_t> radials_of(std::size_t there) const {
+        return radials_here_[there];
+    }
+    // Returns the radials here that have no place there.
+    [[nodiscard]] std::span<const std::uint32_t> radials_without() const {
+        return radials_here_.back();
+    }
+    [[nodiscard]] std::int32_t gate(std::uint32_t here) const { return gates_[here]; }
+
+  private:
+    std::vector<std::vector<std::uint32_t>> radials_here_;
+    std::vector<std::int32_t> gates_;
 };
 
 std::vector<std::int32_t> gates_elsewhere(const GateField& here, const GateField& there,
@@ -54,20 +77,17 @@ class FeatureMaker {
 
     void visit_dual() {
         visit_reflectivity();
-        visit_own_sums(Moment::rho, Feature::correlation, 1250, &FeatureMaker::sum_codes);
+        visit_correlation();
         visit_own_sums(Moment::zdr, Feature::zdr_texture, 2250, &FeatureMaker::sum_differences);
-        visit_own_sums(Moment::phi, Feature::phase_texture, 2250, &FeatureMaker::sum_differences);
+        visit_phase_texture();
     }
 
     void visit_single() {
         visit_reflectivity();
         visit_height();
-        const GateBox box = gate_box(3, 1750, field_);
-        visit_difference_sums(field_, box, Direction::range, 0,
-                              at_own_gates(Feature::range_texture, root_mean(field_)));
-        visit_difference_sums(field_, box, Direction::azimuth, 0,
-                              at_own_gates(Feature::azimuth_texture, root_mean(field_)));
-        const GateBox wide = gate_box(9, 8250, field_);
+        visit_texture(Direction::range, Feature::range_texture);
+        visit_texture(Direction::azimuth, Feature::azimuth_texture);
+        const GateBox wide = wide_box();
         const SumVisitor to_mean = at_own_gates(Feature::mean_reflectivity, mean(field_));
         const SumVisitor to_share = at_own_gates(Feature::echo_share, share(wide));
         visit_code_sums(field_, wide, [&](std::size_t radial, const std::uint32_t* sums) {
@@ -78,7 +98,31 @@ class FeatureMaker {
         visit_doppler();
     }
 
+    void visit_for_kinds(QualityRule rule) {
+        visit_reflectivity();
+        visit_height();
+        visit_texture(Direction::range, Feature::range_texture);
+        const GateBox wide = wide_box();
+        visit_code_sums(field_, wide, at_own_gates(Feature::echo_share, share(wide)));
+        visit_above();
+        visit_doppler();
+        if (rule == QualityRule::single) return;
+        visit_correlation();
+        visit_phase_texture();
+    }
+
   private:
+    [[nodiscard]] GateBox wide_box() const { return gate_box(9, 8250, field_); }
+    void visit_texture(Direction direction, Feature feature) {
+        visit_difference_sums(field_, gate_box(3, 1750, field_), direction, 0,
+                              at_own_gates(feature, root_mean(field_)));
+    }
+    void visit_correlation() {
+        visit_own_sums(Moment::rho, Feature::correlation, 1250, &FeatureMaker::sum_codes);
+    }
+    void visit_phase_texture() {
+        visit_own_sums(Moment::phi, Feature::phase_texture, 2250, &FeatureMaker::sum_differences);
+    }
     // Calls the visitor with what `value` gives for each gate with echo of a radial.
     template <class Value>
     void visit_radial(Feature feature, std::size_t radial, Value value) {
@@ -145,48 +189,28 @@ class FeatureMaker {
         };
     }
 
-    // Sums of another sweep, kept until the radials of this sweep ask for them.
-    class KeptSums {
-      public:
-        // The memory serves one sum after another.
-        KeptSums(const GateField& field, std::vector<std::uint32_t>& memory)
-            : gates_(field.gates), sums_(memory) {
-            memory.resize(std::max(memory.size(), field.radials * field.gates));
-        }
-        [[nodiscard]] SumVisitor keep() {
-            return [this](std::size_t radial, const std::uint32_t* sums) {
-                std::copy_n(sums, gates_, sums_.data() + radial * gates_);
-            };
-        }
-        [[nodiscard]] const std::uint32_t* row(std::size_t radial) const {
-            return sums_.data() + radial * gates_;
-        }
-
-      private:
-        std::size_t gates_;
-        std::vector<std::uint32_t>& sums_;
-    };
-    // `row` returns the numbers of a radial elsewhere, and `value` the feature of such a number.
-    template <class Row, class Value>
-    void visit_elsewhere(Feature feature, const Elsewhere& place, Row row, Value value) {
-        for (std::size_t radial = 0; radial < field_.radials; ++radial) {
-            const std::int32_t there = place.radials[radial];
-            if (there < 0) {
-                visit_radial(feature, radial, [](std::uint32_t) { return missing; });
-                continue;
-            }
-            const auto* numbers = row(static_cast<std::size_t>(there));
+    // Visits the gates here whose radial is the given one elsewhere, where `numbers` are.
+    template <class Number, class Value>
+    void visit_from(Feature feature, const Elsewhere& place, std::size_t there,
+                    const Number* numbers, Value value) {
+        for (const std::uint32_t radial : place.radials_of(there))
             visit_radial(feature, radial, [&](std::uint32_t gate) {
-                const std::int32_t at = place.gates[gate];
+                const std::int32_t at = place.gate(gate);
                 return at >= 0 ? value(numbers[at]) : missing;
             });
-        }
     }
+    void visit_without_place(Feature feature, const Elsewhere& place) {
+        for (const std::uint32_t radial : place.radials_without())
+            visit_radial(feature, radial, [](std::uint32_t) { return missing; });
+    }
+    // Gets the sums of another sweep.
     template <class Value>
-    void visit_sums(Feature feature, const Elsewhere& place, const KeptSums& sums, Value value) {
-        visit_elsewhere(
-            feature, place, [&](std::size_t radial) { return sums.row(radial); },
-            [&](std::uint32_t bits) { return value(BoxSum(bits)); });
+    SumVisitor at_place(Feature feature, const Elsewhere& place, Value value) {
+        visit_without_place(feature, place);
+        return [this, feature, &place, value](std::size_t there, const std::uint32_t* sums) {
+            visit_from(feature, place, there, sums,
+                       [&](std::uint32_t bits) { return value(BoxSum(bits)); });
+        };
     }
     void visit_above() {
         const auto above = sweep_above(volume_, sweep_number_);
@@ -194,15 +218,14 @@ class FeatureMaker {
         const level2::Sweep& sweep = volume_.sweeps[*above];
         const GateField field = gate_field(sweep, *sweep.find(Moment::ref));
         if (field.is_empty()) return visit_missing(Feature::reflectivity_above);
-        KeptSums sums(field, kept_);
-        visit_code_sums(field, gate_box(3, 1250, field), sums.keep());
         // The same place on the ground is at a longer range there.
         constexpr double radian = std::numbers::pi / 180;
         const double stretch = std::cos(sweep_.mean_elevation_deg() * radian) /
                                std::cos(sweep.mean_elevation_deg() * radian);
-        const Elsewhere place{nearest_radials(azimuths_of(sweep_), sweep),
-                              gates_elsewhere(field_, field, stretch)};
-        visit_sums(Feature::reflectivity_above, place, sums, mean(field));
+        const Elsewhere place(nearest_radials(azimuths_of(sweep_), sweep), field.radials,
+                              gates_elsewhere(field_, field, stretch));
+        visit_code_sums(field, gate_box(3, 1250, field),
+                        at_place(Feature::reflectivity_above, place, mean(field)));
     }
     void visit_doppler() {
         const auto companion =
@@ -216,29 +239,27 @@ class FeatureMaker {
                 visit_missing(feature);
             return;
         }
-        const Elsewhere place{nearest_radials(azimuths_of(sweep_), *sweep),
-                              gates_elsewhere(field_, velocity, 1)};
-        visit_elsewhere(
-            Feature::speed, place, [&](std::size_t radial) { return velocity.row(radial); },
-            [&](std::uint16_t code) {
+        const auto radials = nearest_radials(azimuths_of(sweep_), *sweep);
+        const Elsewhere place(radials, velocity.radials, gates_elsewhere(field_, velocity, 1));
+        visit_without_place(Feature::speed, place);
+        for (std::size_t there = 0; there < velocity.radials; ++there)
+            visit_from(Feature::speed, place, there, velocity.row(there), [&](std::uint16_t code) {
                 return code != 0 ? std::abs(velocity.value_of(code)) : missing;
             });
         const GateBox box = gate_box(3, 1750, velocity);
-        KeptSums sums(velocity, kept_);
         visit_difference_sums(velocity, box, Direction::range,
-                              2 * sweep->radials.front().nyquist_mps, sums.keep());
-        visit_sums(Feature::speed_texture, place, sums, root_mean(velocity));
-        visit_code_sums(velocity, box, sums.keep());
-        visit_sums(Feature::speed_share, place, sums, share(box));
-        visit_width(*sweep, place.radials);
+                              2 * sweep->radials.front().nyquist_mps,
+                              at_place(Feature::speed_texture, place, root_mean(velocity)));
+        visit_code_sums(velocity, box, at_place(Feature::speed_share, place, share(box)));
+        visit_width(*sweep, radials);
     }
     void visit_width(const level2::Sweep& sweep, const std::vector<std::int32_t>& radials) {
         const level2::SweepMoment* moment = sweep.find(Moment::sw);
         const GateField width = moment != nullptr ? gate_field(sweep, *moment) : GateField{};
         if (width.is_empty()) return visit_missing(Feature::width);
-        KeptSums sums(width, kept_);
-        visit_code_sums(width, gate_box(3, 1750, width), sums.keep());
-        visit_sums(Feature::width, {radials, gates_elsewhere(field_, width, 1)}, sums, mean(width));
+        const Elsewhere place(radials, width.radials, gates_elsewhere(field_, width, 1));
+        visit_code_sums(width, gate_box(3, 1750, width),
+                        at_place(Feature::width, place, mean(width)));
     }
 
     const level2::Volume& volume_;
@@ -248,7 +269,6 @@ class FeatureMaker {
     const EchoGates& echo_;
     const FeatureVisitor& visit_;
     std::vector<float> values_;
-    std::vector<std::uint32_t> kept_;
 };
 
 }  // namespace
@@ -289,6 +309,11 @@ void visit_features(const level2::Volume& volume, std::size_t sweep, const GateF
         maker.visit_dual();
     else
         maker.visit_single();
+}
+
+void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
+                         const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit) {
+    FeatureMaker(volume, sweep, field, echo, visit).visit_for_kinds(rule);
 }
 
 }  // namespace stormcellar::retrieve

@@ -57,6 +57,7 @@ class EchoGates {
 };
 
 // Gets the values of a feature at the gates with echo of a radial; NaN where the value is missing.
+// Each radial comes once, in any order.
 using FeatureVisitor =
     std::function<void(Feature feature, std::size_t radial, std::span<const float> values)>;
 
@@ -65,5 +66,11 @@ using FeatureVisitor =
 // nearest elevation, at most 0.3 degrees away; they are missing if there is none.
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                     const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit);
+
+// Visits the features that name what is not weather (stormcellar/retrieve/echo_kinds.h) in the same
+// way: reflectivity, height, range_texture, echo_share, reflectivity_above and the Doppler
+// features, and for the dual rule correlation and phase_texture.
+void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
+                         const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit);
 
 }  // namespace stormcellar::retrieve

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "retrieve/quality/additive_rule.h"
+#include "retrieve/quality/dual_source.h"
 #include "retrieve/quality/echo_features.h"
 #include "retrieve/quality/gate_field.h"
-#include "retrieve/sweeps/nearest_sweep.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -18,11 +18,6 @@ namespace {
 using level2::Moment;
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
-
-bool has_dual_polarization(const level2::Sweep& sweep) {
-    return sweep.find(Moment::rho) != nullptr && sweep.find(Moment::zdr) != nullptr &&
-           sweep.find(Moment::phi) != nullptr;
-}
 
 std::vector<float> judged(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                           QualityRule rule, const RuleTables& tables) {
@@ -56,11 +51,8 @@ class QualityMaker {
     }
 
   private:
-    // Returns the sweep with dual polarization whose probabilities a sweep without takes.
     [[nodiscard]] std::optional<std::size_t> copied_from(std::size_t sweep) const {
-        if (only_single_ || has_dual_polarization(volume_.sweeps[sweep])) return std::nullopt;
-        return companion_sweep(volume_, sweep, volume_.sweeps[sweep].mean_elevation_deg(),
-                               Moment::rho);
+        return only_single_ ? std::nullopt : dual_source(volume_, sweep);
     }
     void judge(std::size_t sweep) {
         const level2::Sweep& from = volume_.sweeps[sweep];
@@ -81,36 +73,13 @@ class QualityMaker {
             std::ranges::find(std::span(made_).first(judged_count), from, &SweepQuality::sweep);
         if (source == std::span(made_).first(judged_count).end()) return;
         const level2::SweepMoment& there = volume_.sweeps[from].moments[source->moment];
-        const auto radials = nearest_radials(azimuths_of(to), volume_.sweeps[from]);
         for (std::size_t moment = 0; moment < to.moments.size(); ++moment) {
             if (to.moments[moment].moment != Moment::ref) continue;
             const GateField field = gate_field(to, to.moments[moment]);
-            made_.push_back({sweep, moment, copied_probabilities(field, radials, there, *source)});
+            made_.push_back({sweep, moment,
+                             taken_values(field, to, there, volume_.sweeps[from],
+                                          source->probabilities, no_value)});
         }
-    }
-    static std::vector<float> copied_probabilities(const GateField& field,
-                                                   const std::vector<std::int32_t>& radials,
-                                                   const level2::SweepMoment& there,
-                                                   const SweepQuality& source) {
-        const auto stride = static_cast<std::size_t>(there.gate_stride);
-        std::vector<std::size_t> gates(field.gates);  // stride: outside
-        for (std::size_t gate = 0; gate < gates.size(); ++gate) {
-            const auto other =
-                std::llround((field.range_m(gate) - there.first_gate_m) / there.gate_spacing_m);
-            gates[gate] =
-                other >= 0 && other < there.gate_stride ? static_cast<std::size_t>(other) : stride;
-        }
-        std::vector<float> copied(field.codes.size(), no_value);
-        for (std::size_t radial = 0; radial < field.radials; ++radial) {
-            if (radials[radial] < 0) continue;
-            const float* from =
-                source.probabilities.data() + static_cast<std::size_t>(radials[radial]) * stride;
-            const std::uint16_t* codes = field.row(radial);
-            for (std::size_t gate = 0; gate < field.gates; ++gate)
-                if (codes[gate] != 0 && gates[gate] != stride)
-                    copied[radial * field.gates + gate] = from[gates[gate]];
-        }
-        return copied;
     }
 
     const level2::Volume& volume_;

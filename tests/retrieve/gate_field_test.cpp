@@ -8,19 +8,23 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// A field whose gates have a code with a probability of 70 %.
+// A field whose gates have a code with a probability of 70 % up to an end that differs from radial
+// to radial; one radial has none.
 GateField random_field(bool is_circle) {
     std::mt19937 random(7);
     GateField field;
     field.radials = 13;
-    field.gates = 57;
+    field.gates = 157;
     field.gate_spacing_m = 250;
     field.scale = 2;
     field.offset = 66;
     field.is_circle = is_circle;
-    for (std::size_t i = 0; i < field.radials * field.gates; ++i)
-        field.codes.push_back(random() % 10 < 7 ? static_cast<std::uint16_t>(2 + random() % 120)
-                                                : std::uint16_t{0});
+    for (std::size_t radial = 0; radial < field.radials; ++radial)
+        for (std::size_t gate = 0; gate < field.gates; ++gate) {
+            const bool has_code = gate < radial * 29 % 160 && random() % 10 < 7;
+            field.codes.push_back(has_code ? static_cast<std::uint16_t>(2 + random() % 120)
+                                           : std::uint16_t{0});
+        }
     return field;
 }
 
