@@ -1,4 +1,5 @@
-// stormcellar info FILE... [--json] [--to OUT.nc]: decodes a Level II file and describes it.
+// stormcellar info FILE... [--echo] [--json] [--to OUT.nc]: decodes a Level II file and describes
+// it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/files/echo_report.h"
 #include "cli/files/volume_export.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/input_files.h"
@@ -28,6 +30,7 @@ namespace {
 struct InfoOptions {
     std::vector<std::string> files;
     bool json = false;
+    bool echo = false;
     int threads = 0;  // 0: as many as the machine has
     std::string to;   // CfRadial file to write; empty: none
     int volume = 0;   // number in the file, from 1; 0: its only volume
@@ -266,8 +269,10 @@ Result<nlohmann::ordered_json> run_one(const InfoOptions& options, InputFiles& i
         if (const auto chosen = chosen_volume(options, file, count); !chosen)
             return pass_on(chosen);
     }
+    if (options.json && options.echo) json["echo"] = echo_json(*decoded);
     const bool is_taken = options.json || is_stdout(options.to);
     if (!is_taken) print_facts(*decoded, facts);
+    if (!is_taken && options.echo) print_echo(*decoded);
     if (!options.to.empty()) {
         const Status written = write_chosen(options, file, std::move(*decoded));
         if (!written) return pass_on(written);
@@ -344,6 +349,8 @@ Run set_up_info(CLI::App& info) {
                     "of a file decides what it is")
         ->required();
     info.add_flag("--json", options->json, "Print one JSON document");
+    info.add_flag("--echo", options->echo,
+                  "Also say what the echo is: weather, or which kind of other echo");
     CLI::Option* to = info.add_option("--to", options->to,
                                       "Also write the volume to this file as CfRadial netCDF");
     info.add_option("--volume", options->volume,

@@ -57,6 +57,8 @@ Guides guides_of_files() {
            "Fetch the volumes of an hour of one radar."}}},
         {"info",
          {{"stormcellar info KTLX19990503_235621.gz", "List the sweeps, moments and times."},
+          {"stormcellar info KTLX19990503_235621.gz --echo",
+           "Also say which share of the echo is weather, ground or birds."},
           {"stormcellar info KTLX19990503_235621.gz --to volume.nc",
            "Also write the volume as CfRadial."}}},
         {"profile",

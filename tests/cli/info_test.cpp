@@ -69,6 +69,30 @@ TEST_F(InfoTest, JsonIsOneDocumentWithTheFactsAndNoProblems) {
     EXPECT_EQ(json.at("problems"), nlohmann::json::array());
 }
 
+// KABR sees the ground on a clear evening; a file of four volumes gets four tables.
+TEST_F(InfoTest, SaysWhatTheEchoIs) {
+    STORMCELLAR_NEED_DATA();
+    const std::string kabr = testing::real_file("volumes/KABR20050101_000745.gz");
+    const ProgramResult table = info({kabr, "--echo"});
+    ASSERT_EQ(table.status, 0) << table.err;
+    EXPECT_NE(table.out.find("  ground clutter                36."), std::string::npos)
+        << table.out;
+    const ProgramResult ran = info({kabr, "--echo", "--json"});
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto echo = nlohmann::json::parse(ran.out).at("echo");
+    ASSERT_EQ(echo.size(), 1U);
+    EXPECT_GT(echo[0].at("gates"), 10'000);
+    double sum = 0;
+    for (const auto& percent : echo[0].at("percent"))
+        sum += percent.get<double>();
+    EXPECT_NEAR(sum, 100, 1e-9);
+    EXPECT_GT(echo[0].at("percent").at("ground_clutter"), 30);
+    const ProgramResult four =
+        info({testing::real_file("volumes/KBBX20060113_170337.gz"), "--echo", "--json"});
+    const auto document = nlohmann::json::parse(four.out);
+    EXPECT_EQ(document.at("echo").size(), document.at("volumes").size());
+}
+
 TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
     STORMCELLAR_NEED_DATA();
     const auto file = testing::real_file("volumes/KTLX19910720_160529.gz");

@@ -1,0 +1,18 @@
+// cli/files/echo_report.h -- says what the echo of volumes is: weather, and the kinds of what is
+// not.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "stormcellar/level2/decode.h"
+
+namespace stormcellar::cli {
+
+// Prints a table for each volume of a file: the share of each kind of echo among the reflectivity
+// gates with echo (stormcellar/retrieve/echo_kinds.h).
+void print_echo(const level2::Decoded& decoded);
+
+// Returns the same as a list with an entry for each volume: gates and percent, by kind.
+[[nodiscard]] nlohmann::ordered_json echo_json(const level2::Decoded& decoded);
+
+}  // namespace stormcellar::cli
