@@ -73,7 +73,7 @@ grid::GeoPoint storm_place(const synth::Scene& scene, const SceneStorm& storm, i
                                             1000 * storm.y_km + storm.north_mps * seconds));
 }
 
-double distance_m(grid::GeoPoint a, grid::GeoPoint b) {
+double between_m(grid::GeoPoint a, grid::GeoPoint b) {
     return grid::SiteFrame(a.latitude_deg, a.longitude_deg).to_polar(b).arc_m;
 }
 

@@ -31,6 +31,6 @@ inline constexpr double scene_interval_s = 300;
 // Returns the place of a storm at the start of a volume.
 [[nodiscard]] grid::GeoPoint storm_place(const synth::Scene& scene, const SceneStorm& storm,
                                          int number);
-[[nodiscard]] double distance_m(grid::GeoPoint a, grid::GeoPoint b);
+[[nodiscard]] double between_m(grid::GeoPoint a, grid::GeoPoint b);
 
 }  // namespace stormcellar::retrieve

@@ -56,7 +56,7 @@ TEST(StormCells, FindsSixStormsAndNoOthers) {
             double nearest_m = 1e9;
             for (const StormCell& cell : scan->cells)
                 nearest_m = std::min(nearest_m,
-                                     distance_m(cell.position, storm_place(scene, storm, number)));
+                                     between_m(cell.position, storm_place(scene, storm, number)));
             EXPECT_LT(nearest_m, 2000) << storm.x_km << ", " << storm.y_km;
         }
     }

@@ -50,7 +50,7 @@ TEST(TrackCells, KnowTheMotionOfSixStormsAfterThreeVolumes) {
     for (const TrackedCell& cell : scans.back().cells) {
         const SceneStorm* storm = nullptr;
         for (const SceneStorm& other : storms) {
-            if (distance_m(cell.cell.position, storm_place(scene, other, 2)) < 2000) storm = &other;
+            if (between_m(cell.cell.position, storm_place(scene, other, 2)) < 2000) storm = &other;
         }
         ASSERT_NE(storm, nullptr);
         EXPECT_EQ(cell.origin, CellOrigin::continued);
@@ -62,7 +62,7 @@ TEST(TrackCells, KnowTheMotionOfSixStormsAfterThreeVolumes) {
         EXPECT_LT(std::abs(std::remainder(found.direction_deg() - truth.direction_deg(), 360)), 10);
         ASSERT_EQ(cell.forecasts.size(), forecast_minutes.size());
         // The forecast for 15 minutes is the place at volume 5, within two of its errors.
-        EXPECT_LT(distance_m(cell.forecasts[0].position, storm_place(scene, *storm, 5)),
+        EXPECT_LT(between_m(cell.forecasts[0].position, storm_place(scene, *storm, 5)),
                   2 * cell.forecasts[0].error_m);
         EXPECT_LT(cell.forecasts[0].error_m, cell.forecasts[3].error_m);
     }
