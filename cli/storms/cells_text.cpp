@@ -37,8 +37,8 @@ std::string history_text(const TrackedCell& cell) {
 
 std::string cells_table(const TrackedScan& scan) {
     std::string text =
-        fmt::format("{}  {}  {}\n", scan.area.empty() ? "unknown" : printable(scan.area),
-                    format_utc(scan.time), plural(scan.cells.size(), "cell"));
+        fmt::format("{}  {}  {} {}\n", scan.area.empty() ? "unknown" : printable(scan.area),
+                    format_utc(scan.time), scan.cells.size(), plural(scan.cells.size(), "cell"));
     if (scan.cells.empty()) return text;
     text += fmt::format("{:>9} {:>10} {:>5} {:>6} {:>7} {:>5} {:>5} {:>7} {:>5} {:>13}  {}\n",
                         "latitude", "longitude", "dBZ", "at km", "top km", "VIL", "MESH", "shear",

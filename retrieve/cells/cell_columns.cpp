@@ -10,10 +10,8 @@ namespace {
 
 // The Weather Service caps reflectivity so that hail does not count as liquid water.
 constexpr double liquid_cap_dbz = 56;
-
-bool is_seen(grid::CellStatus status) {
-    return status == grid::CellStatus::value || status == grid::CellStatus::no_echo;
-}
+// The moment AZSH has the unit 0.001/s (stormcellar/level2/moment.h).
+constexpr float per_s = 0.001F;
 
 double liquid_kg_per_m2(double z_mm6_m3, double thickness_m) {
     return z_mm6_m3 > 0 ? 3.44e-6 * std::pow(z_mm6_m3, 4.0 / 7) * thickness_m : 0;
@@ -120,7 +118,8 @@ std::optional<float> ColumnMeter::greatest_shear(int ix, int iy) const {
     for (std::size_t i = 0; i < dbz_.size(); ++i) {
         const auto iz = static_cast<int>(i);
         if (!(dbz_[i] >= top_dbz_) || view.status(ix, iy, iz) != grid::CellStatus::value) continue;
-        greatest = std::max(greatest.value_or(view.value(ix, iy, iz)), view.value(ix, iy, iz));
+        const float shear_per_s = per_s * view.value(ix, iy, iz);
+        greatest = std::max(greatest.value_or(shear_per_s), shear_per_s);
     }
     return greatest;
 }

@@ -14,6 +14,10 @@
 
 namespace stormcellar::retrieve {
 
+[[nodiscard]] inline bool is_seen(grid::CellStatus status) {
+    return status == grid::CellStatus::value || status == grid::CellStatus::no_echo;
+}
+
 // Measures columns of one grid.
 class ColumnMeter {
   public:

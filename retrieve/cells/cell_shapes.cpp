@@ -73,6 +73,29 @@ bool is_deep(const GroupSums& sum, const std::vector<double>& thickness_m, doubl
     return depth_m >= least_m;
 }
 
+// Marks the groups that are less deep than the least depth. A group is not shallow if the air above
+// most of its upper cells was not seen, because it may be deeper than it looks.
+std::vector<std::uint8_t> shallow_groups(const grid::BrickView& view, const StrongEcho& echo,
+                                         const FloodedEcho& flooded,
+                                         const std::vector<GroupSums>& sums, double least_depth_m) {
+    const std::vector<double> thickness_m = layer_thickness_m(view.spec->levels_m);
+    std::vector<std::uint8_t> is_shallow(sums.size());
+    for (std::size_t group = 0; group < sums.size(); ++group)
+        is_shallow[group] = is_deep(sums[group], thickness_m, least_depth_m) ? 0 : 1;
+    std::vector<int> open_less_closed(sums.size(), 0);
+    for (std::size_t i = 0; i < echo.cells().size(); ++i) {
+        const auto group = static_cast<std::size_t>(flooded.group_of[i]);
+        const StrongGridCell& cell = echo.cells()[i];
+        if (is_shallow[group] == 0 || echo.at(cell.ix, cell.iy, cell.iz + 1) >= 0) continue;
+        const bool is_closed =
+            cell.iz + 1 < view.spec->nz() && is_seen(view.status(cell.ix, cell.iy, cell.iz + 1));
+        open_less_closed[group] += is_closed ? -1 : 1;
+    }
+    for (std::size_t group = 0; group < sums.size(); ++group)
+        if (open_less_closed[group] > 0) is_shallow[group] = 0;
+    return is_shallow;
+}
+
 // A mask of the columns of a group.
 struct ColumnMask {
     GroupSums within;
@@ -120,13 +143,12 @@ StormCell shaped_cell(const grid::GridSpec& spec, const grid::GridProjection& pr
 std::vector<StormCell> shape_cells(const grid::BrickView& view, const StrongEcho& echo,
                                    const FloodedEcho& flooded, const CellOptions& options) {
     const std::vector<GroupSums> sums = sum_groups(view, echo, flooded);
-    const std::vector<double> thickness_m = layer_thickness_m(view.spec->levels_m);
+    const std::vector<std::uint8_t> is_shallow =
+        shallow_groups(view, echo, flooded, sums, options.least_depth_m);
     std::vector<std::int32_t> mask_of(sums.size(), -1);
     std::vector<ColumnMask> masks;
     for (std::size_t group = 0; group < sums.size(); ++group) {
-        if (sums[group].max_dbz < options.least_peak_dbz ||
-            !is_deep(sums[group], thickness_m, options.least_depth_m))
-            continue;
+        if (sums[group].max_dbz < options.least_peak_dbz || is_shallow[group] != 0) continue;
         mask_of[group] = static_cast<std::int32_t>(masks.size());
         masks.emplace_back(sums[group]);
     }

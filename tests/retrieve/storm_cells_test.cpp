@@ -137,6 +137,23 @@ TEST(StormCells, PeaksAboveEachOtherAreOneCell) {
     EXPECT_EQ(cells_of(grid).size(), 1U);
 }
 
+// 2026-11-30: cells near KDMX, in a volume of two low sweeps, were left out as too thin.
+TEST(StormCells, EchoThatMayBeDeepIsNotThin) {
+    grid::Grid grid = quiet_grid(30, {1000, 2000, 3000, 4000, 5000});
+    for (int ix = 8; ix < 16; ++ix) {
+        for (int iy = 8; iy < 16; ++iy)
+            set_cell(grid, ix, iy, 1, 55);
+    }
+    EXPECT_TRUE(cells_of(grid).empty());  // a layer of 1 km with clear air above
+    for (int ix = 0; ix < 30; ++ix) {
+        for (int iy = 0; iy < 30; ++iy)
+            grid.status[grid.spec.index(ix, iy, 2)] = grid::CellStatus::not_seen;
+    }
+    const auto cells = cells_of(grid);
+    ASSERT_EQ(cells.size(), 1U);
+    EXPECT_TRUE(cells[0].top_is_at_least);
+}
+
 TEST(StormCells, GridsWithoutStormsHaveNone) {
     EXPECT_TRUE(cells_of(quiet_grid(40, {1000, 2000})).empty());
     grid::Grid unseen = quiet_grid(40, {1000, 2000});
@@ -163,6 +180,7 @@ TEST(StormCells, AGridOfOneCellMayBeAStorm) {
 // A melting layer is strong, flat and everywhere.
 TEST(StormCells, StratiformRainWithAMeltingLayerHasNone) {
     const synth::Scene scene = cells_scene({}, R"([[layer]]
+position_km = [0, 0]
 radii_km = [300, 300]
 base_km = 0
 top_km = 9
@@ -188,9 +206,9 @@ TEST(StormCells, TakeTheLargestAzimuthalShearWithinTheirEcho) {
                 set_cell(grid, ix, iy, iz, 50);
         }
     }
-    set_cell(shear, 6, 6, 1, 0.01F);
-    set_cell(shear, 7, 6, 2, 0.004F);
-    set_cell(shear, 18, 18, 1, 0.03F);  // without echo
+    set_cell(shear, 6, 6, 1, 10);
+    set_cell(shear, 7, 6, 2, 4);
+    set_cell(shear, 18, 18, 1, 30);  // without echo
     const auto bricks =
         grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
     const auto sheared =

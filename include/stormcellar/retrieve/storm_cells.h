@@ -16,6 +16,13 @@
 // Source    Ideas: SCIT (Johnson et al. 1998, Wea. Forecasting 13, 263), TITAN (Dixon and Wiener
 //           1993), TINT (Raut et al. 2021), tobac (Heikenfeld et al. 2019). VIL: Greene and Clark
 //           (1972). The rules and numbers here are our own.
+// Accuracy  tests/retrieve/storm_cells_test.cpp and track_cells_test.cpp enforce, with six
+// simulated
+//           storms through the gridder: all found, no others, within 2 km of the storm's place at
+//           the start of the volume; after three volumes the motion is within 2 m/s and 10 degrees.
+//           Not covered: real cells have no truth. The growth of the error of forecasts (4 m/s and
+//           axis) is an assumption. Positions count as of the scan's time, although sweeps are up
+//           to a volume's length later.
 // Errors    See each function. An input without strong echo gives no cells, which is no error.
 // Threads   Pure functions.
 #pragma once
@@ -43,8 +50,8 @@ struct CellOptions {
     float least_peak_dbz = 41;    // weaker peaks are no cells
     double separation_m = 5'000;  // horizontally between the peaks of two cells
     double least_area_km2 = 10;
-    // Extent in height; layers thinner than this, such as a melting layer, are no cells. Does not
-    // apply to grids of one level.
+    // Extent in height; layers thinner than this, such as a melting layer, are no cells, unless the
+    // air above most of the layer was not seen. Does not apply to grids of one level.
     double least_depth_m = 2'000;
     float top_dbz = 18;  // of echo tops
 };
@@ -82,8 +89,8 @@ struct CellScan {
 // The grids of one time in which cells are found. All have the same spec.
 struct CellFields {
     grid::BrickView reflectivity;
-    std::optional<grid::BrickView> azimuthal_shear;
-    std::optional<FreezingLevels> freezing;  // for hail
+    std::optional<grid::BrickView> azimuthal_shear;  // of the moment AZSH, in 0.001/s
+    std::optional<FreezingLevels> freezing;          // for hail
 };
 
 // Finds the cells of a grid. Errors: bad_argument if an option makes no sense, if the spec is not
@@ -129,8 +136,8 @@ struct TrackMotion {
 
 struct TrackedCell {
     StormCell cell;
-    // Time and place of the first sight, as in "20130520_200400_35.32N_97.51W". So the id stays
-    // the same if later scans are added. It is unique within a result.
+    // Time and place of the first sight among the scans, as in "20130520_200400_35.32N_97.51W". So
+    // the id stays the same if later scans are added. It is unique within a result.
     std::string id;
     CellOrigin origin = CellOrigin::first;
     std::vector<std::string> parents;  // split: the one it left; merged: the tracks that ended
