@@ -27,6 +27,7 @@ const all: Layers = {
     isSweepWeather: true,
     hasGlyphs: true,
     hasRotation: true,
+    hasCells: true,
     sweepNumber: 3,
     crop: { westM: -40000, eastM: 10500, southM: -3000, northM: 60000, bottomM: 500, topM: 15000 },
     isLit: true,

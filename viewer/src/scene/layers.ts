@@ -30,6 +30,7 @@ export interface Layers {
     isSweepWeather: boolean; // the sweep lacks echo that is probably no weather
     hasGlyphs: boolean; // the sweep of a velocity has beam glyphs
     hasRotation: boolean; // columns of strong azimuthal shear are drawn
+    hasCells: boolean; // storm cells are marked and listed
     crop: Crop | null; // box to which volume and surface are cut
     isLit: boolean;
     hasHaze: boolean; // air that no beam saw is veiled
@@ -77,6 +78,7 @@ export const usualLayers: Layers = {
     isSweepWeather: false,
     hasGlyphs: false,
     hasRotation: false,
+    hasCells: false,
     crop: null,
     isLit: false,
     hasHaze: false,
@@ -109,6 +111,7 @@ export function layersAddress(layers: Layers): [string, string][] {
     if (layers.sweepDeg !== null && layers.isSweepWeather) parts.push(['weather', '1']);
     if (layers.hasGlyphs) parts.push(['glyphs', '1']);
     if (layers.hasRotation) parts.push(['rotation', '1']);
+    if (layers.hasCells) parts.push(['cells', '1']);
     const { crop } = layers;
     if (crop) parts.push(['crop-km', cropSides.map((side) => kilometers(crop[side])).join(',')]);
     if (layers.isLit) parts.push(['light', 'gradient']);
@@ -171,6 +174,7 @@ export function layersOf(query: URLSearchParams): Layers {
         isSweepWeather: query.get('weather') === '1',
         hasGlyphs: query.get('glyphs') === '1',
         hasRotation: query.get('rotation') === '1',
+        hasCells: query.get('cells') === '1',
         crop: cropOf(query.get('crop-km')),
         isLit: query.get('light') === 'gradient',
         hasHaze: query.get('haze') === '1',

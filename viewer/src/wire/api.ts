@@ -232,6 +232,10 @@ export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
         signal,
     });
 }
+// Returns the storm cells of a domain at a time as GeoJSON, which wire/storm_cells.ts reads.
+export function cells(domain: string, time: string): Promise<unknown> {
+    return told(`api/v1/cells?${new URLSearchParams({ area: domain, time })}`);
+}
 export interface Tables {
     tables: ColorTable[];
     usual: Record<string, string>; // name of the usual table of each moment

@@ -3,11 +3,13 @@
 import { rotationOf } from '../rotation';
 import { App } from '../app';
 import { Drawing } from '../drawing';
+import { CellMarks } from './cell_marks';
 import { addGlyphs } from './glyph_overlay';
 import { SectionPlot } from './section_plot';
 
 export function begin(app: App, drawing: Drawing): void {
     new SectionPlot(app, drawing.windows).put();
     addGlyphs(app, drawing);
+    new CellMarks(app, drawing).begin();
     drawing.layers.makeRotation = rotationOf;
 }

@@ -57,6 +57,7 @@ type ToggleName =
     | 'sweep'
     | 'glyphs'
     | 'rotation'
+    | 'cells'
     | 'crop'
     | 'light'
     | 'haze'
@@ -113,7 +114,7 @@ export class LayersPanel {
         const addFlag = (
             name: ToggleName,
             key: string,
-            flag: 'hasVolume' | 'hasMaximum' | 'hasRotation' | 'isLit' | 'hasHaze',
+            flag: 'hasVolume' | 'hasMaximum' | 'hasRotation' | 'hasCells' | 'isLit' | 'hasHaze',
         ) =>
             add(
                 name,
@@ -135,6 +136,7 @@ export class LayersPanel {
             () => this.toggleGlyphs(),
         );
         addFlag('rotation', 'k', 'hasRotation');
+        addFlag('cells', 'y', 'hasCells');
         add('crop', 'b', is('crop'), () => this.toggleCrop(), this.cropParts());
         addFlag('light', 'g', 'isLit');
         addFlag('haze', 'n', 'hasHaze');

@@ -1,4 +1,5 @@
-// Loads the program of the section's plot, of beam glyphs and of rotation when one of them is shown first.
+// Loads the program of the section's plot, of beam glyphs, of rotation and of storm cells when one of them is shown
+// first.
 
 import { address } from '../../wire/api';
 import { App } from '../app';
@@ -7,8 +8,8 @@ import { Drawing } from '../drawing';
 export function loadLayers(app: App, drawing: Drawing): void {
     let isLoaded = false;
     const need = async (): Promise<void> => {
-        const { section, hasGlyphs, hasRotation } = app.state.layers;
-        if (isLoaded || !(section || hasGlyphs || hasRotation)) return;
+        const { section, hasGlyphs, hasRotation, hasCells } = app.state.layers;
+        if (isLoaded || !(section || hasGlyphs || hasRotation || hasCells)) return;
         isLoaded = drawing.isLoadingLayers = true;
         try {
             const program = (await import(address('view/layers.js'))) as typeof import('./later_layers');
