@@ -56,7 +56,8 @@ export class CellMarks {
     private put(): void {
         const found = this.cells;
         this.table.box.hidden = found === null;
-        if (found) this.table.put(found, this.app.state.units);
+        const isKnown = this.answers.errorOf(this.app.shown?.key ?? '') === undefined;
+        if (found) this.table.put(found, this.app.state.units, isKnown);
         this.drawing.draw();
     }
 

@@ -8,6 +8,7 @@ import { make } from '../dom';
 const words = {
     title: 'Storm cells',
     none: 'No storm cell at this time',
+    unavailable: 'The server has no storm cells of this area',
     atLeast: 'at least',
     unknown: '–',
 };
@@ -83,6 +84,7 @@ export class CellTable {
     );
     private cells: readonly StormCell[] = [];
     private units: Units | null = null;
+    private isKnown = true;
 
     // `look` is called with the cell of a clicked row.
     constructor(private look: (cell: StormCell) => void) {}
@@ -93,16 +95,18 @@ export class CellTable {
         this.fill();
     }
 
-    put(cells: readonly StormCell[], units: Units): void {
-        if (this.cells === cells && this.units === units) return;
-        [this.cells, this.units] = [cells, units];
+    // `isKnown` is false if the server does not tell the cells.
+    put(cells: readonly StormCell[], units: Units, isKnown: boolean): void {
+        if (this.cells === cells && this.units === units && this.isKnown === isKnown) return;
+        [this.cells, this.units, this.isKnown] = [cells, units, isKnown];
         this.fill();
     }
 
     private fill(): void {
         const { units } = this;
         if (!units) return;
-        this.caption.textContent = this.cells.length > 0 ? words.title : words.none;
+        const empty = this.isKnown ? words.none : words.unavailable;
+        this.caption.textContent = this.cells.length > 0 ? words.title : empty;
         this.heads.forEach((head, i) => {
             const order = this.isRising ? 'ascending' : 'descending';
             head.setAttribute('aria-sort', i === this.column ? order : 'none');
