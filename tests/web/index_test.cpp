@@ -61,9 +61,9 @@ TEST(IndexPage, LinksKeepThePathOfTheProxyAndExamplesTheWholeAddress) {
 }
 
 TEST(IndexPage, OffersOnlyWhatIsServed) {
-    const auto all =
-        std::to_array<std::string>({"/api/v1", "/api/v1/events", "/metrics", "/nexrd2", "/s3",
-                                    "/thredds", "/tiles", "/view", "/volumes", "/wms", "/zarr"});
+    const auto all = std::to_array<std::string>({"/api/v1", "/api/v1/events", "/metrics", "/nexrd2",
+                                                 "/placefiles", "/s3", "/thredds", "/tiles",
+                                                 "/view", "/volumes", "/wms", "/zarr"});
     for (const std::string& door : all) {
         std::vector<std::string> others(all.begin(), all.end());
         std::erase(others, door);

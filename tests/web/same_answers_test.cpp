@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
         "/tiles/KTLX/composite.REF/1999-05-03T23:56:21Z/7/29/50.png",
         "/frames/KTLX.png?product=composite&width=400&height=300&time=1999-05-03T23:56:21Z",
         "/frames/KTLX.png?product=ppi&width=400&height=300&time=1999-05-03T23:56:21Z",
-        "/volumes/KTLX/KTLX19990503_235621"));
+        "/api/v1/cells", "/placefiles/cells.txt?area=KTLX", "/volumes/KTLX/KTLX19990503_235621"));
 
 }  // namespace
 }  // namespace stormcellar::web
