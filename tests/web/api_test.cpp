@@ -436,22 +436,6 @@ TEST_F(Api, AGridThatMayChangeMustBeAskedForEachTime) {
     }
 }
 
-TEST_F(Api, AGridSaysWhichEchoItLacks) {
-    const auto quality = [&] {
-        const Answer answer = served_.get(ServedGrids::small_path);
-        return nlohmann::json::parse(body_of(answer)).at("quality");
-    };
-    EXPECT_TRUE(quality().is_null());
-    grid::Grid weather = served_.small();
-    const std::string note = "probability of weather at least 0.5; 12.3 % of the echo left out";
-    weather.provenance.notes = {note};
-    ASSERT_TRUE(
-        served_.store().commit("KBGM", cache::describe(weather),
-                               grid::BrickGrid::from(weather, ServedGrids::quantization()).view()));
-    served_.grids().refresh();
-    EXPECT_EQ(quality(), note);
-}
-
 // 2026-11-28: a box across the antimeridian was refused, so maps ended there.
 TEST_F(Api, AMapGoesOnAcrossTheAntimeridian) {
     const std::string rest = "&south=50&north=70&detail=2";

@@ -197,6 +197,22 @@ TEST_F(Frames, OfSweepsAreKeptAndHavePanelsAndFormats) {
         << "the answer lists the angles of the volume";
 }
 
+// Kept grids have the echo that the service left in them, so only sweeps take the parameter.
+TEST_F(Frames, OfSweepsLackEchoThatIsProbablyNoWeatherOnRequest) {
+    const auto colored = [&](const std::string& quality) {
+        const Answer answer = get("/frames/KTLX.tif?product=ppi&geotiff=states" + quality);
+        EXPECT_EQ(answer.status, 200u) << body_of(answer);
+        return body_of(answer);
+    };
+    EXPECT_EQ(colored("&quality=0"), colored(""));
+    EXPECT_NE(colored("&quality=0.5"), colored(""));
+    EXPECT_NE(colored("&quality=0.5"), colored("&quality=1"));
+    const Answer of_grid = get(std::string(small_map) + "&quality=0.5");
+    EXPECT_EQ(of_grid.status, 400u);
+    EXPECT_NE(body_of(of_grid).find("what the service left of it"), std::string::npos);
+    EXPECT_EQ(get("/frames/KTLX.png?product=ppi&quality=2").status, 400u);
+}
+
 TEST_F(Frames, OfSweepsNeedTheRawFile) {
     const std::string ppi = "/frames/KTLX.png?product=ppi&width=400&height=300";
     const auto without = door_to(*storm_, {});
