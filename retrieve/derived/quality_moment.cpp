@@ -180,8 +180,10 @@ void add_quality_moment(level2::Volume& volume) {
 }
 
 std::string weather_note(double least, const LeftOutEcho& left_out) {
-    return fmt::format("{}{:g}; {:.1f} % of the echo left out{}", quality_words, least,
-                       left_out.percent(left_out.left_out), largest_kinds(left_out));
+    std::string note = fmt::format("{}{:g}", quality_words, least);
+    if (left_out.echo == 0) return note;
+    return note + fmt::format("; {:.1f} % of the echo left out{}",
+                              left_out.percent(left_out.left_out), largest_kinds(left_out));
 }
 
 LeftOutEcho keep_weather(level2::Volume& volume, double least) {

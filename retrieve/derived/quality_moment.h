@@ -30,8 +30,8 @@ struct LeftOutEcho {
     [[nodiscard]] double percent(std::int64_t gates) const;
 };
 
-// Returns the note for the provenance of grids: `least`, the share left out, and the two largest
-// kinds of what was left out, with their shares (echo_kinds.h).
+// Returns the note for the provenance of grids: `least` and, if there is reflectivity, the share
+// left out and the two largest kinds of it with their shares (echo_kinds.h).
 [[nodiscard]] std::string weather_note(double least, const LeftOutEcho& left_out);
 
 // Makes gates below threshold, in all measured moments, if their probability of weather is less

@@ -11,7 +11,7 @@ namespace stormcellar::retrieve {
 
 struct QualityNote {
     double least = 0;             // echo with a lesser probability of weather is left out
-    std::optional<double> share;  // of the echo; none if the sites of a mosaic differ
+    std::optional<double> share;  // of the echo; none if unknown, as for a mosaic
 };
 
 // Reads what quality_in_notes() returns. None if no note says that echo is left out.

@@ -18,7 +18,7 @@ TEST(QualityNote, HasTheThresholdAndTheShare) {
     const auto without_echo = quality_note_in(std::vector{weather_note(0.25, {})});
     ASSERT_TRUE(without_echo);
     EXPECT_EQ(without_echo->least, 0.25);
-    EXPECT_EQ(without_echo->share, 0.0);
+    EXPECT_FALSE(without_echo->share);
 }
 
 TEST(QualityNote, HasNoShareIfTheSitesOfAMosaicDiffer) {
