@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -237,11 +238,20 @@ std::optional<Motion> motion_in_notes(std::span<const std::string> notes) {
 std::string quality_in_notes(std::span<const std::string> notes) {
     if (const auto text = text_in_notes(notes, quality_words, '\n')) return quality_words + *text;
     // The sites of a mosaic have different shares.
+    std::string least;
+    double lowest = 100, highest = 0;
     for (const std::string& note : notes) {
         const std::size_t at = note.find(quality_words);
-        if (at != note.npos) return note.substr(at, note.find(';', at) - at);
+        if (at == note.npos) continue;
+        const std::size_t end = note.find("; ", at);
+        if (least.empty()) least = note.substr(at, end - at);
+        if (end == note.npos) continue;
+        const double percent = std::strtod(note.c_str() + end + 2, nullptr);
+        lowest = std::min(lowest, percent);
+        highest = std::max(highest, percent);
     }
-    return {};
+    if (lowest > highest) return least;
+    return fmt::format("{}; {:.0f} to {:.0f} % of the echo left out", least, lowest, highest);
 }
 
 std::string dealiasing_in_notes(std::span<const std::string> notes) {

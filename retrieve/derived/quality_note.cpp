@@ -1,6 +1,7 @@
 #include "retrieve/derived/quality_note.h"
 
 #include <charconv>
+#include <string_view>
 #include <system_error>
 
 #include "retrieve/derived/quality_moment.h"
@@ -9,10 +10,13 @@
 namespace stormcellar::retrieve {
 namespace {
 
-std::optional<double> number_at_start(std::string_view text) {
+// Returns the number at the start of a text, if `unit` follows.
+std::optional<double> number_at_start(std::string_view text, std::string_view unit = "") {
     double number = 0;
     const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-    return read.ec == std::errc{} ? std::optional{number} : std::nullopt;
+    const std::string_view rest = text.substr(static_cast<std::size_t>(read.ptr - text.data()));
+    const bool is_good = read.ec == std::errc{} && rest.starts_with(unit);
+    return is_good ? std::optional{number} : std::nullopt;
 }
 
 }  // namespace
@@ -27,7 +31,7 @@ std::optional<QualityNote> quality_note_in(std::span<const std::string> notes) {
     constexpr std::string_view separator = "; ";
     const std::size_t at = numbers.find(separator);
     if (at == numbers.npos) return note;
-    const auto percent = number_at_start(numbers.substr(at + separator.size()));
+    const auto percent = number_at_start(numbers.substr(at + separator.size()), " %");
     if (percent) note.share = *percent / 100;
     return note;
 }

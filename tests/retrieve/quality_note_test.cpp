@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "retrieve/derived/quality_moment.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -27,6 +28,13 @@ TEST(QualityNote, HasNoShareIfTheSitesOfAMosaicDiffer) {
     ASSERT_TRUE(mosaic);
     EXPECT_EQ(mosaic->least, 0.5);
     EXPECT_FALSE(mosaic->share);
+    EXPECT_EQ(quality_in_notes(std::vector{"KBGM: " + weather_note(0.5, {1000, 123}),
+                                           "KLIX: " + weather_note(0.5, {}),
+                                           "KTYX: " + weather_note(0.5, {1000, 456})}),
+              "probability of weather at least 0.5; 12 to 46 % of the echo left out");
+    EXPECT_EQ(quality_in_notes(
+                  std::vector{"KBGM: " + weather_note(0.5, {}), "KLIX: " + weather_note(0.25, {})}),
+              "probability of weather at least 0.5");
 }
 
 TEST(QualityNote, IsNoneWithoutSuchANote) {
