@@ -57,7 +57,7 @@ class WantedEcho : public SmallHouse {
 // REF is decoded for its own sake; the others judge.
 TEST_F(WantedEcho, IsInEachGridOfAFileAndTheNotesGiveTheShare) {
     const fs::path path = testing::real_file(snow);
-    const auto outcome = ingestor_.ingest(path, false);
+    const auto outcome = ingestor_.ingest(path, true);
     ASSERT_TRUE(outcome) << outcome.error().message;
     ASSERT_EQ(outcome->grids.size(), 3U);
     level2::Volume volume = std::move(level2::decode_file(path)->volume);
@@ -142,6 +142,8 @@ DifferingEcho grown(const fs::path& path, std::span<const std::byte> bytes) {
     }
     level2::Volume final = std::move(level2::decode(bytes)->volume);
     (void)retrieve::keep_weather(final, least);
+    std::erase_if(final.sweeps,
+                  [](const level2::Sweep& sweep) { return sweep.find(Moment::ref) == nullptr; });
     EXPECT_GE(newest.sweeps.size() + 1, final.sweeps.size());
     return differing_echo(newest, final);
 }
@@ -150,7 +152,7 @@ DifferingEcho grown(const fs::path& path, std::span<const std::byte> bytes) {
 // sweep is complete only with the volume.
 TEST_F(Living, ASweepIsJudgedOnceAndAsInTheWholeVolume) {
     const DifferingEcho dual = grown(directory_ / "KLOT20220317_000842_V06", real_bytes(busy));
-    EXPECT_GT(dual.gates, 100'000U);
+    EXPECT_GT(dual.gates, 30'000U);
     EXPECT_EQ(dual.differing, 0U);
 }
 
@@ -160,7 +162,7 @@ TEST_F(Living, WithoutDualPolarizationASweepIsJudgedWithoutTheSweepAbove) {
         level2::encode(level2::decode_file(testing::real_file(single_polarization))->volume);
     ASSERT_TRUE(encoded) << encoded.error().message;
     const DifferingEcho single = grown(directory_ / "KBGM20050822_024414", encoded->joined());
-    EXPECT_GT(single.gates, 100'000U);
+    EXPECT_GT(single.gates, 10'000U);
     const double share = static_cast<double>(single.differing) / static_cast<double>(single.gates);
     RecordProperty("share", std::to_string(share));
     EXPECT_GT(share, 0);
@@ -191,7 +193,9 @@ TEST_F(Living, TheFinalGridsOfWeatherDoNotDependOnTheGrowth) {
         ASSERT_EQ(made.size(), 2U);
         ASSERT_EQ(expected.size(), 1U);
         EXPECT_EQ(*read_file(made[0].path), *read_file(expected[0].path));
-        const auto& notes = cache::GridFile::open(made[1].path)->description().provenance.notes;
+        const auto living = cache::GridFile::open(made[1].path);
+        ASSERT_TRUE(living);
+        const auto& notes = living->description().provenance.notes;
         EXPECT_TRUE(std::ranges::any_of(
             notes, [](const std::string& note) { return note.starts_with(living_note); }));
         EXPECT_EQ(retrieve::quality_in_notes(notes).substr(0, kept_at_half.size()), kept_at_half);
