@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "service/log.h"
 #include "stormcellar/cache/grid_file.h"
 
 namespace stormcellar::notify {
@@ -29,6 +28,11 @@ Result<std::optional<retrieve::TrackedScan>> AreaWatch::look(UtcTime now) {
     const UtcTime from = now - history;
     const auto entries = store->list(area_, level2::Moment::ref, from, now + tolerated_future);
     if (!entries) return pass_on(entries);
+    Status has_grids;
+    if (entries->empty())
+        has_grids = fail(ErrorCode::not_found, "{}: no REF grids of the last {} hours in {}", area_,
+                         history.count(), cache_.native());
+    has_grids_.note(has_grids);
     std::erase_if(scans_, [&](const retrieve::CellScan& scan) { return scan.time < from; });
     damaged_.erase(damaged_.begin(), damaged_.lower_bound(from));
     return read_new(*entries) ? newest(now) : std::nullopt;

@@ -6,7 +6,9 @@
 // there is a later grid. A file that cannot be read is left out.
 //
 // Threads   One thread at a time.
-// Errors    Those of listing the cache. Problems of single grids are logged.
+// Errors    Those of listing the cache. Problems of single grids are logged, and once that the area
+// has
+//           no grids, because its name may be wrong.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "service/log.h"
 #include "stormcellar/cache/store.h"
 #include "stormcellar/retrieve/storm_cells.h"
 
@@ -49,6 +52,7 @@ class AreaWatch {
     std::vector<retrieve::CellScan> scans_;  // in any order, one for each time
     std::set<UtcTime> damaged_;              // grids that cannot be read
     std::optional<UtcTime> reported_;
+    FirstFailure has_grids_;
 };
 
 }  // namespace stormcellar::notify

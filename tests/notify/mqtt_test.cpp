@@ -13,12 +13,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A listening socket that closes each connection at once, or never answers.
+// A listening socket that never answers, or sends a text to each connection and closes it.
 class MqttPeer {
   public:
-    explicit MqttPeer(bool closes) : closes_(closes) {
+    explicit MqttPeer(std::optional<std::string> text) : text_(std::move(text)) {
         EXPECT_EQ(::listen(listener_.number(), 8), 0);
-        if (closes_) thread_ = std::thread([this] { close_all(); });
+        if (text_) thread_ = std::thread([this] { answer_all(); });
     }
     MqttPeer(const MqttPeer&) = delete;
     MqttPeer& operator=(const MqttPeer&) = delete;
@@ -31,13 +31,14 @@ class MqttPeer {
     }
 
   private:
-    void close_all() const {
+    void answer_all() const {
         for (;;) {
             const Descriptor connection(::accept(listener_.number(), nullptr, nullptr));
             if (!connection.is_open()) return;
+            (void)::send(connection.number(), text_->data(), text_->size(), MSG_NOSIGNAL);
         }
     }
-    const bool closes_;
+    const std::optional<std::string> text_;
     const Descriptor listener_ = testing::bound_socket();
     std::thread thread_;
 };
@@ -77,14 +78,27 @@ TEST(Mqtt, NobodyListens) {
 }
 
 TEST(Mqtt, APeerThatClosesAtOnce) {
-    const MqttPeer peer(true);
+    const MqttPeer peer("");
     const Status done = publish_by_mqtt(peer.address(), "{}", {});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::busy);
 }
 
+TEST(Mqtt, APeerThatSendsJunk) {
+    // The second text promises a packet of 256 MB, and the third acknowledges a message that was
+    // not sent.
+    for (const std::string& text :
+         {std::string("HTTP/1.1 400 Bad Request\r\n\r\n"), std::string("\x30\xff\xff\xff\x7f", 5),
+          std::string("\x40\x02\x00\x01", 4), std::string(10'000, '\xff')}) {
+        const MqttPeer peer(text);
+        const Status done = publish_by_mqtt(peer.address(), "{}", {});
+        ASSERT_FALSE(done);
+        EXPECT_EQ(done.error().code, ErrorCode::busy) << done.error().message;
+    }
+}
+
 TEST(Mqtt, APeerThatNeverAnswersIsLeft) {
-    const MqttPeer peer(false);
+    const MqttPeer peer(std::nullopt);
     const Status done = publish_by_mqtt(peer.address(), "{}", {.longest = std::chrono::seconds{0}});
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::busy);

@@ -157,6 +157,28 @@ TEST_F(NotifyOfAStorm, APasswordFileThatIsMissingStopsTheStart) {
     EXPECT_FALSE(NotifyService::open(real_file_system(), config_));
 }
 
+TEST_F(NotifyOfAStorm, TheProgramReloads) {
+    ScriptedServer server([](const Asked&) { return Reply{}; });
+    const std::filesystem::path file = directory_ / "s.toml";
+    const std::string common = "[paths]\ncache = \"cache\"\n[notify]\ndirectory = \"notify\"\n";
+    std::ofstream(file) << common;
+    testing::RunningProgram program(STORMCELLAR_NOTIFY, {"--config", file});
+    const auto has_said = [&](const std::string& text) {
+        return testing::eventually([&] { return program.err().find(text) != std::string::npos; });
+    };
+    ASSERT_TRUE(has_said("0 rules")) << program.err();
+    std::ofstream(file) << common << "[[notify.rule]]\n";
+    ::kill(program.id(), SIGHUP);
+    ASSERT_TRUE(has_said("the configuration stays as it was")) << program.err();
+    std::ofstream(file) << common << "[[notify.rule]]\nname = \"moore\"\narea = \"KTLX\"\n"
+                        << "place = [35.0, -97.0]\nradius_km = 20\nmax_dbz = 55\nurl = \""
+                        << server.url() << "\"\n";
+    ::kill(program.id(), SIGHUP);
+    ASSERT_TRUE(has_said("reloaded")) << program.err();
+    EXPECT_TRUE(has_asked(server, 1)) << program.err();
+    EXPECT_EQ(program.end(SIGTERM), 0);
+}
+
 // Runs the real program. The broker starts only after the first try.
 TEST_F(NotifyOfAStorm, TheProgramPublishesToABrokerThatComesBack) {
     STORMCELLAR_NEED_BROKER();
