@@ -8,7 +8,7 @@ namespace stormcellar::notify {
 namespace {
 
 constexpr std::chrono::hours history{3};
-constexpr int most_in_a_look = 8;
+constexpr int most_in_a_look = 4;
 
 // Estimates the motion of cells from the grid before, if there is one.
 Status add_motion(retrieve::CellScan& scan, const cache::GridFile& file,

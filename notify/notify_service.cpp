@@ -13,6 +13,7 @@ namespace stormcellar::notify {
 namespace {
 
 constexpr std::chrono::milliseconds between_steps{1000};
+constexpr std::chrono::seconds longest_turn{20};
 // Settled messages are kept for this long after the time in which they limit others.
 constexpr std::chrono::hours kept_longer{1};
 
@@ -88,20 +89,28 @@ void NotifyService::wait() {
 
 Status NotifyService::turn(UtcTime now) {
     Status outcome;
-    for (AreaWatch& area : areas_) {
-        const auto scan = area.look(now);
-        if (!scan) outcome = pass_on(scan);
-        if (!scan || !*scan) continue;
-        for (const auto& post : posts_) {
-            if (post->rule.area != area.area()) continue;
-            Status reported = report(*post, **scan);
-            if (reported) continue;
-            area.report_again();
-            outcome = std::move(reported);
-        }
+    const SteadyTime end = steady_now() + longest_turn;
+    for (std::size_t i = 0; i < areas_.size() && steady_now() < end; ++i) {
+        AreaWatch& area = areas_[next_area_];
+        next_area_ = (next_area_ + 1) % areas_.size();
+        if (Status looked = look_at(area, now); !looked) outcome = std::move(looked);
     }
     for (const auto& post : posts_)
         post->outbox->forget_before(now - post->rule.every - kept_longer);
+    return outcome;
+}
+
+// Writes the messages of all rules about new cells of an area.
+Status NotifyService::look_at(AreaWatch& area, UtcTime now) {
+    const auto scan = area.look(now);
+    if (!scan) return pass_on(scan);
+    if (!*scan) return {};
+    Status outcome;
+    for (const auto& post : posts_) {
+        if (post->rule.area != area.area()) continue;
+        if (Status reported = report(*post, **scan); !reported) outcome = std::move(reported);
+    }
+    if (!outcome) area.report_again();
     return outcome;
 }
 

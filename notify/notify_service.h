@@ -32,8 +32,9 @@ class NotifyService {
     NotifyService& operator=(const NotifyService&) = delete;
     ~NotifyService();
 
-    // Looks for new grids, and writes messages about their cells. Returns the last of the errors.
-    // After an error the next call tries the same again, and writes no message twice.
+    // Looks for new grids, and writes messages about their cells. Begins with no further area after
+    // 20 s, so that the caller can feed its watchdog; the next call goes on there. Returns the last
+    // of the errors. After an error a later call tries the same again, and writes no message twice.
     Status turn(UtcTime now);
     // Returns the time since the last sign of progress of the thread that has been silent longest.
     [[nodiscard]] std::chrono::milliseconds longest_silence() const;
@@ -42,12 +43,14 @@ class NotifyService {
     struct Post;  // a rule with its outbox and its thread
     explicit NotifyService(const NotifyConfig& config);
     Status add(FileSystem& file_system, const NotifyRule& rule);
+    Status look_at(AreaWatch& area, UtcTime now);
     Status report(Post& post, const retrieve::TrackedScan& scan);
     void run(Post& post);
     void wait() STORMCELLAR_EXCLUDES(mutex_);
 
     const NotifyConfig config_;
     std::vector<AreaWatch> areas_;
+    std::size_t next_area_ = 0;
     std::atomic<bool> stop_{false};
     Mutex mutex_;  // lock it to set stop_; else a thread about to wait would miss that
     ConditionVariable stopped_;

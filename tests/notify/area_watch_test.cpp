@@ -65,7 +65,7 @@ TEST_F(AreaOfAStorm, ReportsEachGridOnce) {
 
 // A restart must give the same ids, or it would send the same messages again.
 TEST_F(AreaOfAStorm, ARestartGivesTheSameIds) {
-    testing::commit_moving_storm(directory_ / "cache", "KTLX", watch_time, 5, 0);
+    testing::commit_moving_storm(directory_ / "cache", "KTLX", watch_time, 4, 0);
     const auto before = look(watch_time);
     ASSERT_TRUE(before);
     AreaWatch again(directory_ / "cache", "KTLX", {});
