@@ -1,0 +1,76 @@
+// stormcellar/retrieve/rain_total.h -- the rain that falls on each column over several volumes.
+//
+// Method    Of each volume, the lowest cell of a column that is seen gives the rain rate. Between
+//           two volumes the rates move with the echo (grid/mosaic/time_interpolation.h, `advected`)
+//           in steps of at most a minute, so that a fast storm does not leave a comb of the places
+//           where the radar saw it. The motion comes from the rates of both volumes, as
+//           reflectivity.
+// Units     mm, minutes, mm/h. Time begins at the middle of the first volume and ends at the middle
+//           of the last one.
+// Unseen    Minutes in which a column is not seen are counted, and never taken as dry. Without a
+//           bridge of at most 30 minutes between two volumes, no column is seen between them.
+// Errors    bad_argument if a volume has another spec than the first one, or is not later than the
+//           one before it.
+// Accuracy  1 % of the largest total, for storms of 3 km that move at 30 m/s and are seen every 5
+//           minutes; rates that stay in place err by more than 30 % there
+//           (tests/retrieve/rain_total_test.cpp).
+// Not covered  As in rain_rate.h: this is rain at the height of the lowest cell seen. If there is
+// too
+//           little echo to find a motion (800 km2), rates blend in place. Echo that grows, decays
+//           or turns between the volumes is taken to change evenly.
+// Threads   One thread at a time; work is split over `threads`.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/grid/brick_grid.h"
+#include "stormcellar/grid/column_geometry.h"
+
+namespace stormcellar::retrieve {
+
+enum class RainSteps : std::uint8_t {
+    advected,
+    in_place,  // each rate lasts until the middle of the time to the next volume
+};
+
+class RainTotal {
+  public:
+    static constexpr std::chrono::minutes longest_bridge{30};
+
+    explicit RainTotal(grid::SitePosition site, RainSteps steps = RainSteps::advected,
+                       int threads = 1);
+
+    // Adds the grid of RATE of a later volume, whose middle is the time.
+    [[nodiscard]] Status add(const grid::BrickView& rate, UtcTime middle);
+
+    // These have a number for each column, row by row from the south-west; empty before the first
+    // volume.
+    [[nodiscard]] const std::vector<float>& mm() const { return mm_; }
+    [[nodiscard]] const std::vector<float>& unseen_minutes() const { return unseen_minutes_; }
+    // Returns the time between the first and the last volume.
+    [[nodiscard]] double minutes() const { return minutes_; }
+    // Returns the spec of the columns: that of the volumes with only their lowest level.
+    [[nodiscard]] const grid::GridSpec& spec() const { return lowest_->spec(); }
+
+  private:
+    [[nodiscard]] Status bridge(const grid::BrickGrid& next, UtcTime middle);
+    void count(const grid::Grid& rates, double seconds);
+
+    grid::SitePosition site_;
+    RainSteps steps_;
+    int threads_;
+    std::optional<grid::GridSpec> whole_spec_;
+    std::shared_ptr<const grid::ColumnGeometry> columns_;
+    std::optional<grid::BrickGrid> lowest_;  // rates of the last volume
+    UtcTime middle_;
+    std::vector<float> mm_, unseen_minutes_;
+    double minutes_ = 0;
+};
+
+}  // namespace stormcellar::retrieve
