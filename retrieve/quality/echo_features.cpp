@@ -287,15 +287,24 @@ std::string_view feature_name(Feature feature) {
 }
 
 EchoGates::EchoGates(const GateField& field) : begins_(field.radials + 1, 0) {
+    take(field, [&](std::size_t at) { return field.codes[at] != 0; });
+}
+
+EchoGates::EchoGates(const GateField& field, std::span<const float> probabilities, float least)
+    : begins_(field.radials + 1, 0) {
+    take(field, [&](std::size_t at) { return field.codes[at] != 0 && probabilities[at] < least; });
+}
+
+template <class IsTaken>
+void EchoGates::take(const GateField& field, IsTaken is_taken) {
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
-        const std::uint16_t* codes = field.row(radial);
         const std::size_t end = field.end_of_values(radial);
         std::size_t count = begins_[radial];
         gates_.resize(std::max(gates_.size(), count + end));
-        // Whether a gate has echo is hard to predict, so that each gate is written.
+        // Branches on echo are hard to predict, so write each gate and count those that are taken.
         for (std::size_t gate = 0; gate < end; ++gate) {
             gates_[count] = static_cast<std::uint32_t>(gate);
-            count += codes[gate] != 0 ? 1 : 0;
+            count += is_taken(radial * field.gates + gate) ? 1 : 0;
         }
         begins_[radial + 1] = count;
     }

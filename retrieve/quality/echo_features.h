@@ -38,10 +38,12 @@ inline constexpr auto feature_count = static_cast<std::size_t>(Feature::phase_te
 
 [[nodiscard]] std::string_view feature_name(Feature feature);
 
-// The gates of a field that have echo.
+// The gates of a field that have echo, or some of these.
 class EchoGates {
   public:
     explicit EchoGates(const GateField& field);
+    // Has only gates whose probability of weather is below `least`.
+    EchoGates(const GateField& field, std::span<const float> probabilities, float least);
 
     // Returns the gates of a radial, in order.
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t radial) const {
@@ -52,6 +54,9 @@ class EchoGates {
     [[nodiscard]] std::size_t count() const { return gates_.size(); }
 
   private:
+    template <class IsTaken>
+    void take(const GateField& field, IsTaken is_taken);
+
     std::vector<std::uint32_t> gates_;
     std::vector<std::size_t> begins_;
 };

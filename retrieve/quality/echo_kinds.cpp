@@ -184,27 +184,25 @@ class KindNamer {
     SweepKinds named(const SweepQuality& quality) {
         const level2::Sweep& sweep = volume_.sweeps[quality.sweep];
         const GateField field = gate_field(sweep, sweep.moments[quality.moment]);
-        const EchoGates echo(field);
+        const std::vector<float>& probabilities = quality.probabilities;
+        const EchoGates left(field, probabilities, least_);
         const SweepFacts facts = facts_of(quality.sweep);
-        const FeatureColumns columns(volume_, quality.sweep, field, echo,
+        const FeatureColumns columns(volume_, quality.sweep, field, left,
                                      facts.has_dual ? QualityRule::dual : QualityRule::single);
         const std::vector<Spoke> spokes = find_spokes(field, sweep, sun_of(sweep));
         SweepKinds made{quality.sweep, quality.moment, {}};
-        made.kinds.assign(field.codes.size(), EchoKind::none);
+        made.kinds.resize(field.codes.size());
+        std::ranges::transform(probabilities, made.kinds.begin(), [](float probability) {
+            return std::isnan(probability) ? EchoKind::none : EchoKind::weather;
+        });
         for (std::size_t radial = 0, i = 0; radial < field.radials; ++radial)
-            for (const std::uint32_t gate : echo.of(radial)) {
+            for (const std::uint32_t gate : left.of(radial)) {
                 const std::size_t at = radial * field.gates + gate;
                 const GateFacts of_gate(columns, i++, field.range_m(gate));
                 const Spoke spoke = spokes.empty() ? Spoke::none : spokes[at];
-                const float probability = quality.probabilities[at];
-                if (std::isnan(probability)) continue;
-                if (probability >= least_)
-                    made.kinds[at] = EchoKind::weather;
-                else if (spoke != Spoke::none)
-                    made.kinds[at] =
-                        spoke == Spoke::sun ? EchoKind::sun_spike : EchoKind::interference;
-                else
-                    made.kinds[at] = kind_of(of_gate, facts);
+                made.kinds[at] = spoke == Spoke::sun            ? EchoKind::sun_spike
+                                 : spoke == Spoke::interference ? EchoKind::interference
+                                                                : kind_of(of_gate, facts);
             }
         return made;
     }
