@@ -22,9 +22,11 @@
 //   other              everything else
 //
 // Accuracy  tests/retrieve/echo_kinds_test.cpp: on synthetic volumes each kind is found in 90 % of
-//           its gates, and neither rain nor hail gets a name in more than 1 %. In five real
-//           volumes, at most 0.1 % of the gates with a correlation of at least 0.97 get a name
-//           from the dual rule.
+//           its gates, and neither rain nor hail gets a name in more than 1 %, even if the rule
+//           takes all of it for other echo. Of the certain weather of five real volumes (gates of
+//           at least 20 dBZ with a correlation of at least 0.97), 0.4 % get a name by the dual
+//           rule, and 0.2 % by the single one. In the disk of birds of KLOT on October 19, 2020, 70
+//           % of the gates are called birds and insects.
 // Not covered  Sea clutter (needs a map of the water), wind turbines (need several volumes, to know
 //           that they stand still), and chaff (looks like birds): they are other, or birds and
 //           insects. Clutter that the radar's filter has removed in part has other velocities and
