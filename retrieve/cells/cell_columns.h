@@ -1,5 +1,5 @@
-// retrieve/cells/cell_columns.h -- what the columns of a storm cell show: echo top, VIL, hail and
-// azimuthal shear.
+// retrieve/cells/cell_columns.h -- measures echo top, VIL, hail and azimuthal shear of the columns
+// of a storm cell.
 //
 // Units     As in stormcellar/retrieve/storm_cells.h.
 // Threads   Pure functions.

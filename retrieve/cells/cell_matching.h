@@ -1,4 +1,4 @@
-// retrieve/cells/cell_matching.h -- which cells of a scan continue which tracks.
+// retrieve/cells/cell_matching.h -- finds the cells of a scan that continue tracks.
 //
 // A pair is possible if the predicted place of the track is within the gate, or if the moved
 // footprint covers enough of the smaller of both. Its cost is the distance in gates plus the share
@@ -16,7 +16,7 @@
 
 namespace stormcellar::retrieve {
 
-// Where a track should be at the time of the scan.
+// A track, and the place where it should be at the time of the scan.
 struct ExpectedCell {
     const StormCell* cell = nullptr;  // as it was last seen
     const grid::GridSpec* spec = nullptr;

@@ -24,6 +24,7 @@ struct CellTrack {
     const StormCell* cell = nullptr;
     const grid::GridSpec* spec = nullptr;
     std::optional<TrackMotion> prior, motion;
+    bool has_inherited = false;  // the prior is a motion of before a jump in place
     bool is_open = true;
 };
 
@@ -142,7 +143,7 @@ class Tracker {
             greatest = share;
             cell.origin = CellOrigin::split;
             cell.parents = {parent.id};
-            track.prior = inherited(parent.motion);
+            inherit(track, parent.motion);
         }
         if (cell.origin == CellOrigin::split) jumped_.insert(cell.parents.front());
         see(track, scan, j);
@@ -155,7 +156,7 @@ class Tracker {
         track.sightings.push_back({scan.time, cell.position});
         track.cell = &cell;
         track.spec = &scan.spec;
-        if (cell.echo_motion && track.fit_from == 0)
+        if (cell.echo_motion && !track.has_inherited)
             track.prior = TrackMotion{*cell.echo_motion, echo_motion_error_mps};
     }
 
@@ -185,17 +186,19 @@ class Tracker {
         }
     }
 
-    [[nodiscard]] static std::optional<TrackMotion> inherited(
-        const std::optional<TrackMotion>& motion) {
-        if (!motion) return std::nullopt;
-        return TrackMotion{motion->velocity, std::hypot(motion->error_mps, inherited_error_mps)};
+    static void inherit(CellTrack& track, const std::optional<TrackMotion>& motion) {
+        if (!motion) return;
+        track.prior =
+            TrackMotion{motion->velocity, std::hypot(motion->error_mps, inherited_error_mps)};
+        track.has_inherited = true;
     }
 
     // Begins a new line after a jump in place; the motion so far becomes the prior.
     static void restart_line(CellTrack& track) {
-        if (track.motion) track.prior = inherited(track.motion);
+        inherit(track, track.motion);
         track.fit_from = track.sightings.size() - 1;
     }
+
     void finish(CellTrack& track, TrackedCell& cell) {
         if (jumped_.erase(track.id) > 0) restart_line(track);
         const std::size_t count = track.sightings.size() - track.fit_from;

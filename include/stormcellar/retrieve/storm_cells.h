@@ -106,7 +106,7 @@ struct CellFields {
 
 enum class CellOrigin : std::uint8_t {
     first,      // found for the first time
-    continued,  // the only successor of one earlier cell
+    continued,  // continues a track
     split,      // split off from a cell that also continues
     merged,     // continues a track, and at least one other track ended in it
 };
@@ -121,7 +121,7 @@ struct CellSighting {
 // Lead times of the forecasts.
 inline constexpr std::array forecast_minutes = {15, 30, 45, 60};
 
-// Where a cell will be if it keeps its motion. The error is the standard deviation along each axis.
+// The place of a cell if it keeps its motion. The error is the standard deviation along each axis.
 struct CellForecast {
     int minutes = 0;
     UtcTime time;
