@@ -7,8 +7,8 @@ namespace stormcellar::retrieve {
 namespace {
 
 using level2::Moment;
-using testing::ElementsAre;
-using testing::Optional;
+using ::testing::ElementsAre;
+using ::testing::Optional;
 
 level2::Sweep sweep_at(float elevation_deg, std::vector<Moment> moments, int radials = 360) {
     level2::Sweep sweep;
