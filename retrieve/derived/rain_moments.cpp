@@ -20,6 +20,7 @@ using level2::Moment;
 using level2::SweepMoment;
 
 constexpr float kdp_scale = 200, kdp_offset = 32768, most_kdp = 160;
+constexpr float most_error = 1;  // degrees/km
 constexpr float rate_scale = 50, rate_offset = 3;
 constexpr std::uint16_t unfitted_code = 2;
 constexpr double largest_rate = 1300;
@@ -50,7 +51,8 @@ SweepMoment kdp_moment(const SweepMoment& phase, const SweepKdp& kdp) {
     return moment_like(
         phase, Moment::kdp, kdp_scale, kdp_offset, [&](std::size_t, std::int32_t, std::size_t at) {
             const float value = kdp.deg_per_km[at];
-            const bool is_fitted = std::abs(value) <= most_kdp;
+            const bool is_fitted =
+                std::abs(value) <= most_kdp && kdp.error_deg_per_km[at] <= most_error;
             return is_fitted
                        ? static_cast<std::uint16_t>(std::lrint(value * kdp_scale + kdp_offset))
                        : unfitted_code;

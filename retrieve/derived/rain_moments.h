@@ -2,9 +2,9 @@
 // rate.
 //
 // KDP has the gates and the flags of PHI, in steps of 0.005 degrees/km. A gate with a phase is
-// ambiguous where no KDP can be fitted, and where it would exceed 160 degrees/km. RATE has the gates
-// and the flags of REF, in steps of 0.02 mm/h up to 1300. A sweep without PHI takes KDP for its
-// RATE from the nearest sweep that has it.
+// ambiguous where no KDP can be fitted, and where it would exceed 160 degrees/km. RATE has the
+// gates and the flags of REF, in steps of 0.02 mm/h up to 1300. A sweep without PHI takes KDP for
+// its RATE from the nearest sweep that has it.
 //
 // Threads   Pure functions.
 #pragma once

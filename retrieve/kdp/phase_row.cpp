@@ -61,10 +61,13 @@ class PhaseMemory {
 
 PhaseRow unfold_phases(std::span<const float> phases_deg, std::span<const float> correlations) {
     const std::size_t gates = phases_deg.size();
-    PhaseRow row{std::vector<double>(gates, 0), std::vector<std::uint8_t>(gates, 0)};
+    PhaseRow row{std::vector<double>(gates, 0), std::vector<std::uint8_t>(gates, 0),
+                 std::vector<std::uint8_t>(gates, 0)};
     std::vector<std::uint8_t> candidates(gates);
-    for (std::size_t gate = 0; gate < gates; ++gate)
+    for (std::size_t gate = 0; gate < gates; ++gate) {
+        row.has_phase[gate] = std::isfinite(phases_deg[gate]) ? 1 : 0;
         candidates[gate] = is_candidate(phases_deg, correlations, gate) ? 1 : 0;
+    }
     PhaseMemory memory;
     for (std::size_t gate = 0; gate < gates; ++gate) {
         if (candidates[gate] == 0 ||

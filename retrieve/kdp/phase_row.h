@@ -14,6 +14,7 @@ namespace stormcellar::retrieve {
 struct PhaseRow {
     std::vector<double> phases_deg;     // unfolded; 0 at gates that are not good
     std::vector<std::uint8_t> is_good;  // the phase tells how the rain changes it
+    std::vector<std::uint8_t> has_phase;
 };
 
 // Unfolds the phases of a radial. A gate is good if its correlation coefficient is at least 0.85

@@ -78,14 +78,17 @@ class RowSums {
     }
     // Sums gates begin to end - 1, both of which may be outside the row.
     [[nodiscard]] LineSums between(std::ptrdiff_t begin, std::ptrdiff_t end) const {
-        const auto last = static_cast<std::ptrdiff_t>(before_.size()) - 1;
-        const auto inside = [last](std::ptrdiff_t at) {
-            return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, last));
-        };
-        return before_[inside(end)] - before_[inside(begin)];
+        return before(end) - before(begin);
+    }
+    [[nodiscard]] double count(std::ptrdiff_t begin, std::ptrdiff_t end) const {
+        return before(end).n - before(begin).n;
     }
 
   private:
+    [[nodiscard]] const LineSums& before(std::ptrdiff_t gate) const {
+        const auto last = static_cast<std::ptrdiff_t>(before_.size()) - 1;
+        return before_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(gate, 0, last))];
+    }
     std::vector<LineSums> before_;
 };
 
@@ -106,9 +109,10 @@ struct WindowSlopes {
     }
 };
 
-WindowSlope slope_in(const LineSums& sums, int gates, double noise_deg) {
-    if (sums.n < std::max(least_good_gates, least_good_share * gates)) return {};
-    const auto line = line_of(sums);
+WindowSlope slope_in(const RowSums& sums, std::ptrdiff_t begin, int gates, double noise_deg) {
+    const double least = std::max(least_good_gates, least_good_share * gates);
+    if (sums.count(begin, begin + gates) < least) return {};
+    const auto line = line_of(sums.between(begin, begin + gates));
     if (!line) return {};
     const double scale = 1 / std::sqrt(line->spread);
     return {static_cast<float>(line->slope), static_cast<float>(noise_deg * scale),
@@ -122,8 +126,7 @@ WindowSlopes slopes_of_length(const RowSums& sums, const std::vector<double>& no
     for (std::ptrdiff_t begin = 1 - gates; begin <= last; ++begin) {
         const auto middle =
             static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(begin + gates / 2, 0, last));
-        slopes.windows.push_back(
-            slope_in(sums.between(begin, begin + gates), gates, noise[middle]));
+        slopes.windows.push_back(slope_in(sums, begin, gates, noise[middle]));
     }
     return slopes;
 }
@@ -162,10 +165,14 @@ class SlopeMean {
 
 bool is_backscatter(const RowSums& sums, std::ptrdiff_t begin, int gates, int flank,
                     double noise_deg) {
-    const LineSums inside = sums.between(begin, begin + gates);
+    const std::ptrdiff_t end = begin + gates;
+    if (sums.count(begin, end) < least_good_share * gates ||
+        sums.count(begin - flank, begin) < least_good_share * flank ||
+        sums.count(end, end + flank) < least_good_share * flank)
+        return false;
+    const LineSums inside = sums.between(begin, end);
     const LineSums left = sums.between(begin - flank, begin);
-    const LineSums right = sums.between(begin + gates, begin + gates + flank);
-    if (inside.n < 0.6 * gates || left.n < 0.6 * flank || right.n < 0.6 * flank) return false;
+    const LineSums right = sums.between(end, end + flank);
     const auto line = line_of(left + right), before = line_of(left), after = line_of(right);
     if (!line || !before || !after || line->residual_deg > most_flank_noise * noise_deg)
         return false;
@@ -211,6 +218,7 @@ PhaseSlopes fit_slopes(const PhaseRow& row, double spacing_m) {
     for (const double length_m : window_lengths_m)
         lengths.push_back(slopes_of_length(sums, noise, gates_in(length_m, spacing_m)));
     for (std::size_t gate = 0; gate < gates; ++gate) {
+        if (row.has_phase[gate] == 0) continue;
         SlopeMean mean;
         for (int part = 0; part <= window_parts; ++part)
             mean.add(lengths, static_cast<std::ptrdiff_t>(gate), part);

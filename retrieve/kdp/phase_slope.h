@@ -27,7 +27,7 @@ struct PhaseSlopes {
 // their neighbors on both sides stay.
 void leave_out_backscatter(PhaseRow& row, double spacing_m);
 
-// Fits slopes.
+// Fits slopes at the gates that have a phase.
 [[nodiscard]] PhaseSlopes fit_slopes(const PhaseRow& row, double spacing_m);
 
 }  // namespace stormcellar::retrieve

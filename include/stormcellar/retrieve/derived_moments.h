@@ -15,8 +15,8 @@
 // s^-1.
 //
 // KDP has the gates and the flags of PHI, in steps of 0.005 degrees/km; a gate with a phase is
-// ambiguous where no KDP can be fitted. RATE has those of REF, in steps of 0.02 mm/h up to 1300; a
-// sweep without PHI takes KDP from the nearest sweep that has it.
+// ambiguous where no KDP can be fitted, or its error exceeds 1 degree/km. RATE has those of REF, in
+// steps of 0.02 mm/h up to 1300; a sweep without PHI takes KDP from the nearest sweep that has it.
 //
 // Units     As in storm_motion.h. The motion is rounded to whole degrees and to 0.1 m/s before its
 //           use, so that its text gives all of it.
