@@ -283,6 +283,13 @@ Status refuse_panels(const LoopOptions& options) {
                                        : std::string{"--panels"});
 }
 
+// Refuses products that only `frame` draws.
+Status check_sums(const render::Scene& scene) {
+    if (!render::facts_of(scene.product).is_sum) return {};
+    return fail(ErrorCode::bad_argument, "{} is for frame, which adds up several files",
+                render::product_name(scene.product));
+}
+
 // Refuses options that a loop of sweeps does not support.
 Status check_sweeps(const LoopOptions& options, const render::Scene& scene) {
     if (!render::facts_of(scene.product).is_of_sweep) return {};
@@ -325,6 +332,7 @@ Result<render::Scene> check(LoopOptions& options) {
     }
     if (auto taken = take_sources(options); !taken) return pass_on(taken);
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
+    if (auto fine = check_sums(*scene); !fine) return pass_on(fine);
     if (auto fine = check_sweeps(options, *scene); !fine) return pass_on(fine);
     if (auto fine = render::check_stored_derivation(options.scene, scene->product); !fine)
         return pass_on(fine);

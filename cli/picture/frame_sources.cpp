@@ -166,6 +166,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     FrameGrids grids;
     if (product.is_of_sweep || product.is_over_time) {
         auto made = product.is_of_sweep ? sweep_of_file(options.grid, scene)
+                    : product.is_sum    ? PictureGrid::make_rain_total(options.grid)
                                         : PictureGrid::make_track(options.grid);
         if (!made) return pass_on(made);
         grids.shown = std::move(*made);

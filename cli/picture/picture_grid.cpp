@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/grid/grid_files.h"
+#include "cli/picture/rain_total_grid.h"
 #include "cli/picture/rotation_track.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/gridder.h"
@@ -105,7 +106,7 @@ Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
     return made;
 }
 
-Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {
+Result<std::vector<PictureGrid>> PictureGrid::make_by_time(const GridOptions& options) {
     std::vector<PictureGrid> grids;
     for (const std::string& file : options.files) {
         GridOptions one = options;
@@ -116,15 +117,37 @@ Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {
     }
     std::ranges::stable_sort(grids, {},
                              [](const PictureGrid& grid) { return grid.description().time; });
+    return grids;
+}
+
+Result<PictureGrid> PictureGrid::make_rain_total(const GridOptions& options) {
+    auto grids = make_by_time(options);
+    if (!grids) return pass_on(grids);
+    RainTotalGrid total;
+    for (const PictureGrid& grid : *grids) {
+        const Status added = total.add(grid.view(), grid.description(), options.threads);
+        if (!added) return pass_on(added);
+    }
+    auto bricks = total.bricks();
+    if (!bricks) return pass_on(bricks);
+    Made& newest = *grids->back().made_;
+    newest.description = total.description();
+    newest.bricks = std::move(*bricks);
+    return std::move(grids->back());
+}
+
+Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {
+    auto grids = make_by_time(options);
+    if (!grids) return pass_on(grids);
     RotationTrack track;
-    for (const PictureGrid& grid : grids) {
+    for (const PictureGrid& grid : *grids) {
         const Status added = track.add(grid.view(), grid.description(), options.threads);
         if (!added) return pass_on(added);
     }
-    Made& newest = *grids.back().made_;
+    Made& newest = *grids->back().made_;
     newest.description = track.description();
     newest.bricks = track.take_bricks();
-    return std::move(grids.back());
+    return std::move(grids->back());
 }
 
 Result<PictureGrid> PictureGrid::of_sweep(SweptVolume volume, const render::Scene& scene,

@@ -44,6 +44,9 @@ class PictureGrid {
     // Grids each file, and returns the largest values of each cell (RotationTrack). Errors: those
     // of make() and of RotationTrack::add().
     [[nodiscard]] static Result<PictureGrid> make_track(const GridOptions& options);
+    // Grids the rain rates of each file, and returns their total (RainTotalGrid). Errors: those of
+    // make() and of RainTotalGrid.
+    [[nodiscard]] static Result<PictureGrid> make_rain_total(const GridOptions& options);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
                                                       const render::Scene& scene,
@@ -65,6 +68,8 @@ class PictureGrid {
     [[nodiscard]] Status check_whole() const;
 
   private:
+    // Grids each file; the earliest is the first.
+    [[nodiscard]] static Result<std::vector<PictureGrid>> make_by_time(const GridOptions& options);
     struct Stored;
     struct Made;
     struct Swept;

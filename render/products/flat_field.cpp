@@ -315,6 +315,13 @@ double radar_height_m(const FrameFacts& facts) {
     return sum_m / static_cast<double>(facts.sites.size());
 }
 
+FlatField rain_total_field(const BrickView& view, int threads) {
+    return for_each_column(view, threads,
+                           [](const ColumnCells& cells, FlatField& out, std::size_t place) {
+                               out.put(place, cells.status.front(), cells.values.front());
+                           });
+}
+
 FlatField lowest_seen_field(const BrickView& view, int threads) {
     return for_each_column(view, threads,
                            [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
@@ -369,6 +376,8 @@ Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, cons
         case Product::shi:
             return hail_field(view, facts_of(scene.product).hail, scene.freezing_levels,
                               radar_height_m(facts), columns, threads);
+        case Product::rain_total:
+            return rain_total_field(view, threads);
         case Product::volume:
         case Product::section:
             break;

@@ -31,6 +31,7 @@
 //   rotation_tracks            As rotation, of a grid that has the largest value of each cell over
 //                              time.
 //   mesh, posh, shi   mm, %, J/m/s: hail (hail_field.h)
+//   rain_total   mm: the cells of a grid of one level, which holds the total.
 // For products of reflectivity or shear, a column without a value is range folded if any cell is
 // range folded, because the echo behind it is unknown; else no echo (below the threshold) if any
 // cell was seen; else not seen. Of shear, such a column may also be ambiguous.
@@ -91,6 +92,7 @@ inline constexpr double least_depth_m = 500;
                                                     const HeightLayer& layer, double radar_m,
                                                     int threads);
 
+[[nodiscard]] FlatField rain_total_field(const grid::BrickView& view, int threads);
 [[nodiscard]] FlatField lowest_seen_field(const grid::BrickView& view, int threads);
 [[nodiscard]] FlatField highest_seen_field(const grid::BrickView& view, int threads);
 

@@ -89,6 +89,9 @@ std::string posh_title(const Scene& scene) {
 std::string shi_title(const Scene& scene) {
     return title_of_hail("Severe hail index (SHI)", scene);
 }
+std::string rain_total_title(const Scene& /*scene*/) {
+    return "Rain total at the lowest height seen";
+}
 
 constexpr auto product_facts = std::to_array<ProductFacts>({
     {.product = Product::volume, .name = "volume", .view = View::volume, .title = volume_title},
@@ -201,6 +204,15 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .may_be_higher = true,
      .is_smooth = true,
      .hail = &retrieve::Hail::shi_j_per_m_s},
+    {.product = Product::rain_total,
+     .name = "rain-total",
+     .aside = "of several volumes",
+     .title = rain_total_title,
+     .unit = "mm",
+     .only_moment = level2::Moment::rate,
+     .is_smooth = true,
+     .is_over_time = true,
+     .is_sum = true},
 });
 static_assert(is_in_order(product_facts, &ProductFacts::product));
 

@@ -39,7 +39,8 @@ enum class Product {
     rotation_tracks,
     mesh,
     posh,
-    shi
+    shi,
+    rain_total
 };
 
 // The kind of picture that a product makes.
@@ -76,6 +77,7 @@ struct ProductFacts {
     // True if the product shows the largest values of several volumes
     // (cli/picture/frame_sources.h).
     bool is_over_time = false;
+    bool is_sum = false;  // true if a product over time shows sums instead
 };
 
 [[nodiscard]] std::span<const ProductFacts> all_products();
