@@ -60,7 +60,7 @@ TEST(PhaseRow, AFewGatesAloneAreNotGood) {
 }
 
 TEST(PhaseRow, NoiseDoesNotDependOnTheSlope) {
-    PhaseRow row{std::vector<double>(200), std::vector<std::uint8_t>(200, 1)};
+    PhaseRow row{std::vector<double>(200), std::vector<std::uint8_t>(200, 1), {}};
     std::mt19937 random(1);  // NOLINT: the same noise in each run
     std::normal_distribution<double> noise_deg(0, 2);
     for (std::size_t gate = 0; gate < 200; ++gate)  // a ramp with a bend
@@ -68,7 +68,7 @@ TEST(PhaseRow, NoiseDoesNotDependOnTheSlope) {
             2 * static_cast<double>(std::min<std::size_t>(gate, 100)) + noise_deg(random);
     for (const double noise : phase_noise_deg(row, 12))
         EXPECT_NEAR(noise, 2, 1);
-    const PhaseRow bad{std::vector<double>(9), std::vector<std::uint8_t>(9, 0)};
+    const PhaseRow bad{std::vector<double>(9), std::vector<std::uint8_t>(9, 0), {}};
     for (const double noise : phase_noise_deg(bad, 0))
         EXPECT_EQ(noise, 5) << "unknown";
 }
