@@ -11,7 +11,6 @@
 #include <ctime>
 #include <filesystem>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "bench/measure.h"
@@ -25,10 +24,18 @@
 namespace stormcellar::bench {
 namespace {
 
-template <class Value>
-Value taken(Result<Value> result) {
-    if (!result) throw std::runtime_error(result.error().message);
-    return std::move(*result);
+// Returns the grid of a volume. Errors: those of reading and gridding.
+Result<grid::BrickGrid> gridded_volume(const std::filesystem::path& file) {
+    const auto volume = decode_ref(file, 1);
+    if (!volume) return pass_on(volume);
+    const auto site = site_of(*volume);
+    if (!site) return pass_on(site);
+    const auto columns = grid::make_column_geometry(
+        *site, grid::default_spec(site->latitude_deg, site->longitude_deg));
+    if (!columns) return pass_on(columns);
+    const auto made = grid::make_grid(*volume, *site, **columns, {});
+    if (!made) return pass_on(made);
+    return grid::BrickGrid::from(*made, grid::default_quantization(level2::Moment::ref));
 }
 
 template <class Work>
@@ -43,18 +50,17 @@ double least_cpu_ms(int runs, const Work& work) {
 }
 
 void measure_cells(const std::filesystem::path& file, const Request& request, Table& table) {
-    const auto volume = taken(decode_ref(file, 1));
-    const auto site = taken(site_of(volume));
-    const auto columns = taken(grid::make_column_geometry(
-        site, grid::default_spec(site.latitude_deg, site.longitude_deg)));
-    const grid::BrickGrid bricks =
-        grid::BrickGrid::from(taken(grid::make_grid(volume, site, *columns, {})),
-                              grid::default_quantization(level2::Moment::ref));
-    const grid::BrickView view = bricks.view();
+    const auto bricks = gridded_volume(file);
+    if (!bricks) {
+        fmt::print(stderr, "bench_cells: left out: {}\n", bricks.error().message);
+        return;
+    }
+    const grid::BrickView view = bricks->view();
     const retrieve::CellFields fields{view, {}, retrieve::FreezingLevels{}};
-    retrieve::CellScan scan;
-    const double cells_ms = least_cpu_ms(
-        request.runs, [&] { scan = taken(retrieve::find_cells(fields, {}, site.icao)); });
+    Result<retrieve::CellScan> found;
+    const double cells_ms =
+        least_cpu_ms(request.runs, [&] { found = retrieve::find_cells(fields, {}, ""); });
+    retrieve::CellScan scan = found.value();
     const double motion_ms =
         least_cpu_ms(request.runs, [&] { (void)retrieve::guess_motions(scan, view, view, 300); });
     const retrieve::StrongEcho echo(view, retrieve::CellOptions{}.least_dbz);

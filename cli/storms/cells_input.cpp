@@ -20,7 +20,9 @@ Result<CellGrids> grids_of_level2(const CellInput& input, std::vector<std::strin
     GridOptions options = input.grid;
     options.files = std::move(files);
     options.takes_moments = true;
-    options.moment = input.shear ? "REF,AZSH" : "REF";
+    options.moment = level2::moment_name(level2::Moment::ref);
+    if (input.shear)
+        options.moment += fmt::format(",{}", level2::moment_name(level2::Moment::azsh));
     return PictureGrid::make_each(std::move(options));
 }
 
@@ -36,7 +38,7 @@ Result<CellGrids> grids_of(const CellInput& input, const std::string& file) {
     auto opened = PictureGrid::open(file);
     if (!opened) return pass_on(opened);
     if (opened->description().moment != level2::Moment::ref)
-        return fail(ErrorCode::bad_argument, "{}: holds {}, and cells need REF", file,
+        return fail(ErrorCode::bad_argument, "{}: holds {}, and cells need reflectivity", file,
                     level2::moment_name(opened->description().moment));
     CellGrids grids;
     grids.push_back(std::move(*opened));

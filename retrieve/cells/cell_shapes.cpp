@@ -73,8 +73,12 @@ bool is_deep(const GroupSums& sum, const std::vector<double>& thickness_m, doubl
     return depth_m >= least_m;
 }
 
+// Melting layers are rarely stronger.
+constexpr float melting_layer_dbz = 50;
+
 // Marks the groups that are less deep than the least depth. A group is not shallow if the air above
-// most of its upper cells was not seen, because it may be deeper than it looks.
+// most of its upper cells was not seen and it is stronger than melting layers, because it is
+// probably deeper than it looks.
 std::vector<std::uint8_t> shallow_groups(const grid::BrickView& view, const StrongEcho& echo,
                                          const FloodedEcho& flooded,
                                          const std::vector<GroupSums>& sums, double least_depth_m) {
@@ -92,7 +96,8 @@ std::vector<std::uint8_t> shallow_groups(const grid::BrickView& view, const Stro
         open_less_closed[group] += is_closed ? -1 : 1;
     }
     for (std::size_t group = 0; group < sums.size(); ++group)
-        if (open_less_closed[group] > 0) is_shallow[group] = 0;
+        if (open_less_closed[group] > 0 && sums[group].max_dbz >= melting_layer_dbz)
+            is_shallow[group] = 0;
     return is_shallow;
 }
 

@@ -177,16 +177,17 @@ TEST(StormCells, AGridOfOneCellMayBeAStorm) {
     EXPECT_TRUE(std::isfinite(cells[0].vil_kg_per_m2));
 }
 
-// A melting layer is strong, flat and everywhere.
+// A melting layer of 39 to 45 dBZ within 60 km of the radar. Farther away, the beams are so far
+// apart that the layer looks deep.
 TEST(StormCells, StratiformRainWithAMeltingLayerHasNone) {
     const synth::Scene scene = cells_scene({}, R"([[layer]]
 position_km = [0, 0]
-radii_km = [300, 300]
+radii_km = [90, 90]
 base_km = 0
 top_km = 9
-peak_dbz = 33
+peak_dbz = 27
 melting_km = 3
-bright_band_db = 9
+bright_band_db = 15
 bright_band_depth_km = 0.3
 ripple_db = 3
 )");
@@ -194,6 +195,12 @@ ripple_db = 3
     const auto scan = find_cells({bricks.view(), {}, {}}, noon, "KTLX");
     ASSERT_TRUE(scan);
     EXPECT_TRUE(scan->cells.empty()) << scan->cells.size();
+    // Strong echo there is.
+    CellOptions thin;
+    thin.least_depth_m = 0;
+    const auto layers = find_cells({bricks.view(), {}, {}}, noon, "KTLX", thin);
+    ASSERT_TRUE(layers);
+    EXPECT_FALSE(layers->cells.empty());
 }
 
 TEST(StormCells, TakeTheLargestAzimuthalShearWithinTheirEcho) {

@@ -12,13 +12,14 @@ namespace {
 constexpr UtcTime track_start{std::chrono::hours(1)};
 constexpr Motion true_motion{14, -6};
 
-// Returns sightings every five minutes, with normal noise of both coordinates.
+// Returns sightings every five minutes on a straight line to 45 N 7 E, with normal noise of both
+// coordinates.
 std::vector<CellSighting> noisy_track(std::size_t count, double noise_m, std::mt19937& random) {
     std::normal_distribution<double> noise(0, noise_m);
     std::vector<CellSighting> sightings;
     for (std::size_t i = 0; i < count; ++i) {
-        const double seconds = 300.0 * static_cast<double>(i);
-        const grid::GeoPoint truth = moved_place({45, 7}, true_motion, seconds);
+        const double before_newest_s = 300.0 * static_cast<double>(count - 1 - i);
+        const grid::GeoPoint truth = moved_place({45, 7}, true_motion, -before_newest_s);
         sightings.push_back({track_start + std::chrono::minutes(5 * i),
                              moved_place(truth, {noise(random), noise(random)}, 1)});
     }
@@ -30,8 +31,8 @@ TEST(TrackMotion, OfAStraightTrackIsExact) {
     for (const std::size_t count : {2U, 3U, 10U}) {
         const auto motion = motion_of_track(noisy_track(count, 0, random), std::nullopt, 1000);
         ASSERT_TRUE(motion);
-        EXPECT_NEAR(motion->velocity.u_mps, true_motion.u_mps, 0.02) << count;
-        EXPECT_NEAR(motion->velocity.v_mps, true_motion.v_mps, 0.02) << count;
+        EXPECT_NEAR(motion->velocity.u_mps, true_motion.u_mps, 1e-6) << count;
+        EXPECT_NEAR(motion->velocity.v_mps, true_motion.v_mps, 1e-6) << count;
     }
 }
 

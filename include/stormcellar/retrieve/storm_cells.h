@@ -22,7 +22,8 @@
 //           the start of the volume; after three volumes the motion is within 2 m/s and 10 degrees.
 //           Not covered: real cells have no truth. The growth of the error of forecasts (4 m/s and
 //           axis) is an assumption. Positions count as of the scan's time, although sweeps are up
-//           to a volume's length later.
+//           to a volume's length later. Farther than 60 km from the radar, a melting layer may
+//           look deep and count as a cell.
 // Errors    See each function. An input without strong echo gives no cells, which is no error.
 // Threads   Pure functions.
 #pragma once
@@ -50,8 +51,8 @@ struct CellOptions {
     float least_peak_dbz = 41;    // weaker peaks are no cells
     double separation_m = 5'000;  // horizontally between the peaks of two cells
     double least_area_km2 = 10;
-    // Extent in height; layers thinner than this, such as a melting layer, are no cells, unless the
-    // air above most of the layer was not seen. Does not apply to grids of one level.
+    // Extent in height; layers thinner than this, such as a melting layer, are no cells. If the air
+    // above was not seen, thin echo of 50 dBZ is a cell. Does not apply to grids of one level.
     double least_depth_m = 2'000;
     float top_dbz = 18;  // of echo tops
 };
