@@ -117,8 +117,9 @@ struct DerivedVolume {
 
 // Returns what notes of a grid's provenance say about gates that were left out because they are
 // probably no weather, with the two largest kinds of it (echo_kinds.h): "probability of weather at
-// least 0.5; 12.3 % of the echo left out: birds and insects 8.1 %, ground clutter 3.0 %", without
-// the shares if the sites of a mosaic differ. Empty if no note says so.
+// least 0.5; 12.3 % of the echo left out: birds and insects 8.1 %, ground clutter 3.0 %". If the
+// sites of a mosaic differ, it gives the range of the shares, "43 to 98 %", and no kinds; without
+// a share if it is unknown. Empty if no note says so.
 [[nodiscard]] std::string quality_in_notes(std::span<const std::string> notes);
 
 }  // namespace stormcellar::retrieve
