@@ -106,7 +106,7 @@ def pysteps_maps(maps, times, minutes):
     field = motion.get_method('LK')(shown)
     steps = [lead / interval for lead in minutes]
     moved = extrapolation.get_method('semilagrangian')(
-        np.where(np.isnan(maps[-1]), np.nan, maps[-1]), field, steps, interp_order=1)
+        maps[-1], field, steps, interp_order=1, allow_nonfinite_values=True)
     return list(moved)
 
 

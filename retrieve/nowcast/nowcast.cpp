@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t most_pairs = 4;
 constexpr double seconds_per_minute = 60;
+// Blocks of this size tell storms from echo beside them that does not move, such as birds. With
+// blocks of 64 km, the mean error of hindcasts of KBGM is 4 % larger (bench/compare_nowcast.py).
+constexpr double block_m = 32'000, pixel_m = 1000;
 
 Status check_sequence(std::span<const TimedGrid> grids) {
     if (grids.size() < 2) {
@@ -47,6 +50,8 @@ Status check_sequence(std::span<const TimedGrid> grids) {
 Result<PairMotions> pair_motions(std::span<const TimedGrid> grids, int threads) {
     if (Status fine = check_sequence(grids); !fine) return pass_on(fine);
     grid::MotionOptions options;
+    options.block_m = block_m;
+    options.pixel_m = pixel_m;
     options.threads = threads;
     PairMotions motions;
     for (std::size_t i = 1; i < grids.size(); ++i) {
