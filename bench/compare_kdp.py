@@ -62,8 +62,7 @@ def pyart_methods(path):
     retrieve = pyart.retrieve
     for name, method, options in (
             ('maesaka', retrieve.kdp_maesaka, {}),
-            ('vulpiani', retrieve.kdp_vulpiani, {'band': 'S'}),
-            ('schneebeli', retrieve.kdp_schneebeli, {'band': 'S', 'parallel': False})):
+            ('vulpiani', retrieve.kdp_vulpiani, {'band': 'S'})):
         kdp = method(radar, psidp_field='unfolded', **options)[0]['data']
         yield name, np.ma.filled(kdp.astype(float), np.nan)
 
