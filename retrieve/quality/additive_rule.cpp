@@ -38,10 +38,12 @@ void RuleTables::add(Feature feature, std::span<const float> values, float* log_
         const std::size_t count = std::min(places.size(), values.size() - begin);
         const float* from = values.data() + begin;
         for (std::size_t i = 0; i < count; ++i) {
-            const float step = (from[i] - table.first) * table.steps_per_unit + 0.5F;
+            const bool is_missing = from[i] != from[i];
+            const float value = is_missing ? table.first : from[i];
+            const float step = (value - table.first) * table.steps_per_unit + 0.5F;
             const float low = step < most_step ? step : most_step;
             const auto place = static_cast<std::int32_t>(low > 0 ? low : 0);
-            places[i] = from[i] == from[i] ? place : missing_step;
+            places[i] = is_missing ? missing_step : place;
         }
         for (std::size_t i = 0; i < count; ++i)
             log_odds[begin + i] += table.log_odds[static_cast<std::size_t>(places[i])];

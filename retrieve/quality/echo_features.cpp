@@ -292,7 +292,9 @@ EchoGates::EchoGates(const GateField& field) : begins_(field.radials + 1, 0) {
 
 EchoGates::EchoGates(const GateField& field, std::span<const float> probabilities, float least)
     : begins_(field.radials + 1, 0) {
-    take(field, [&](std::size_t at) { return field.codes[at] != 0 && probabilities[at] < least; });
+    take(field, [&](std::size_t at) {
+        return field.codes[at] != 0 && std::isless(probabilities[at], least);
+    });
 }
 
 template <class IsTaken>

@@ -53,6 +53,13 @@ class GateFacts {
   public:
     GateFacts(const FeatureColumns& columns, std::size_t i, double range_m)
         : columns_(columns), i_(i), range_m_(range_m) {}
+    // Missing features are neither at most nor at least a number.
+    [[nodiscard]] bool at_most(Feature feature, float most) const {
+        return std::islessequal(columns_.at(feature, i_), most);
+    }
+    [[nodiscard]] bool at_least(Feature feature, float least) const {
+        return std::isgreaterequal(columns_.at(feature, i_), least);
+    }
     [[nodiscard]] float operator[](Feature feature) const { return columns_.at(feature, i_); }
     [[nodiscard]] double range_m() const { return range_m_; }
 
@@ -64,14 +71,13 @@ class GateFacts {
 
 constexpr double near_m = 60'000, farthest_ground_m = 230'000;
 
-// Comparisons with a missing feature, NaN, are false.
 bool stands_still(const GateFacts& gate) {
-    return gate[Feature::speed] <= 1 && gate[Feature::speed_texture] <= 1.5F &&
-           gate[Feature::width] <= 2 && gate[Feature::range_texture] >= 3;
+    return gate.at_most(Feature::speed, 1) && gate.at_most(Feature::speed_texture, 1.5F) &&
+           gate.at_most(Feature::width, 2) && gate.at_least(Feature::range_texture, 3);
 }
 
 bool is_ground_clutter(const GateFacts& gate) {
-    return gate.range_m() <= near_m && gate[Feature::height] <= 2000 && stands_still(gate);
+    return gate.range_m() <= near_m && gate.at_most(Feature::height, 2000) && stands_still(gate);
 }
 
 bool is_distant_ground(const GateFacts& gate, const SweepFacts& sweep) {
@@ -83,16 +89,17 @@ bool is_distant_ground(const GateFacts& gate, const SweepFacts& sweep) {
 
 bool is_birds_and_insects(const GateFacts& gate, const SweepFacts& sweep) {
     const bool is_smooth_and_low =
-        gate[Feature::height] <= 3000 && gate[Feature::echo_share] >= 0.5F &&
-        gate[Feature::range_texture] <= 7 && gate[Feature::speed_share] >= 0.7F &&
-        gate[Feature::speed_texture] <= 5;
+        gate.at_most(Feature::height, 3000) && gate.at_least(Feature::echo_share, 0.5F) &&
+        gate.at_most(Feature::range_texture, 7) && gate.at_least(Feature::speed_share, 0.7F) &&
+        gate.at_most(Feature::speed_texture, 5);
     if (!is_smooth_and_low) return false;
     if (sweep.has_dual)
-        return gate[Feature::reflectivity] <= 35 && gate[Feature::correlation] < 0.9F &&
-               gate[Feature::phase_texture] >= 8;
-    return sweep.is_in_bloom && gate[Feature::reflectivity] <= 30 &&
-           gate[Feature::echo_share] >= 0.8F && gate[Feature::speed_share] >= 0.8F &&
-           gate[Feature::width] >= 2;
+        return gate.at_most(Feature::reflectivity, 35) &&
+               std::isless(gate[Feature::correlation], 0.9F) &&
+               gate.at_least(Feature::phase_texture, 8);
+    return sweep.is_in_bloom && gate.at_most(Feature::reflectivity, 30) &&
+           gate.at_least(Feature::echo_share, 0.8F) && gate.at_least(Feature::speed_share, 0.8F) &&
+           gate.at_least(Feature::width, 2);
 }
 
 EchoKind kind_of(const GateFacts& gate, const SweepFacts& sweep) {
@@ -121,12 +128,13 @@ bool has_bloom(const level2::Volume& volume, std::span<const SweepQuality> quali
         const level2::Sweep& sweep = volume.sweeps[quality.sweep];
         const GateField field = gate_field(sweep, sweep.moments[quality.moment]);
         const double elevation = sweep.mean_elevation_deg();
+        if (!std::isfinite(elevation)) continue;
         for (std::size_t gate = 0; gate < field.gates; ++gate) {
             const double range = field.range_m(gate);
             if (range < first_m || range > last_m) continue;
             const double height = beam.forward({range, elevation}).height_m;
             for (LayerCount* layer : {&low, &aloft}) {
-                if (!(height >= layer->bottom_m && height < layer->top_m)) continue;
+                if (height < layer->bottom_m || height >= layer->top_m) continue;
                 layer->gates += static_cast<std::int64_t>(field.radials);
                 for (std::size_t radial = 0; radial < field.radials; ++radial)
                     layer->echo += field.row(radial)[gate] != 0 ? 1 : 0;
@@ -167,7 +175,7 @@ class KindNamer {
     SweepFacts facts_of(std::size_t number) {
         const level2::Sweep& sweep = volume_.sweeps[number];
         SweepFacts facts;
-        facts.is_lowest = sweep.mean_elevation_deg() <= lowest_deg_ + 1.2;
+        facts.is_lowest = std::islessequal(sweep.mean_elevation_deg(), lowest_deg_ + 1.2);
         facts.has_sweep_above = sweep_above(volume_, number).has_value();
         facts.has_dual = !only_single_ && has_dual_polarization(sweep);
         if (facts.has_dual) return facts;

@@ -45,7 +45,7 @@ class SpokeFinder {
         for (std::size_t width = 1; width <= most_radials; ++width)
             for (std::size_t radial = 0; radial < field_.radials; ++radial)
                 find_interference(radial, width);
-        if (sun)
+        if (sun && std::isfinite(sun->azimuth_deg) && std::isfinite(sun->elevation_deg))
             for (std::size_t radial = 0; radial < field_.radials; ++radial)
                 if (is_near(sweep_.radials[radial], *sun)) find_sun(radial);
         return std::move(spokes_);
@@ -65,7 +65,8 @@ class SpokeFinder {
         for (std::size_t radial = from; radial < to; ++radial) {
             const float here = sweep_.radials[radial % field_.radials].azimuth_deg;
             const float next = sweep_.radials[(radial + 1) % field_.radials].azimuth_deg;
-            if (!(std::abs(std::remainder(next - here, 360.0F)) <= widest_step_deg)) return false;
+            if (!std::isfinite(here) || !std::isfinite(next)) return false;
+            if (std::abs(std::remainder(next - here, 360.0F)) > widest_step_deg) return false;
         }
         return true;
     }
@@ -95,6 +96,8 @@ class SpokeFinder {
     }
 
     static bool is_near(const level2::Radial& radial, const SunPosition& sun) {
+        if (!std::isfinite(radial.azimuth_deg) || !std::isfinite(radial.elevation_deg))
+            return false;
         const double elevation = static_cast<double>(radial.elevation_deg);
         const double across =
             std::remainder(static_cast<double>(radial.azimuth_deg) - sun.azimuth_deg, 360) *

@@ -15,10 +15,10 @@
 //   birds and insects  up to 3 km above the antenna, echo in half of the gates about, texture of
 //                      reflectivity up to 7 dB, a velocity in 70 % of them with a texture up to 5
 //                      m/s. With dual polarization: up to 35 dBZ, a correlation below 0.9 and a
-//                      texture of PHI from 8 degrees on. Without: up to 30 dBZ, dense echo, a
-//                      spectrum width from 2 m/s on, and a bloom: 10 to 60 km from the radar, at
-//                      least 60 % of the gates from 0.2 to 1 km above it have echo, and at most 20
-//                      % of those from 3 to 6 km.
+//                      texture of PHI from 8 degrees on. Without: up to 30 dBZ, echo and velocity
+//                      in 80 % of the gates about, a spectrum width from 2 m/s on, and a bloom: 10
+//                      to 60 km from the radar, at least 60 % of the gates from 0.2 to 1 km above
+//                      it have echo, and at most 20 % of those from 3 to 6 km.
 //   other              everything else
 //
 // Accuracy  tests/retrieve/echo_kinds_test.cpp: on synthetic volumes each kind is found in 90 % of
