@@ -10,6 +10,7 @@
 //           once.
 // Units     Heights above mean sea level, in meters; values as in retrieve::Hail.
 // Accuracy  As retrieve::hail_of_column() of the cells; tests/render/hail_field_test.cpp compares.
+//           Codes of 0.5 dBZ change MESH by up to 0.3 mm (KTLX, 1999-05-03).
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
 
