@@ -33,7 +33,7 @@ std::string hover_text(const TrackedCell& cell) {
     std::string text = fmt::format(
         "{}\\n{}{}\\nMax {:.0f} dBZ at {:.0f} kft\\nTop {}{:.0f} kft\\nVIL {:.0f} kg/m2", cell.id,
         retrieve::cell_origin_name(cell.origin),
-        cell.parents.empty() ? "" : fmt::format(" from {}", fmt::join(cell.parents, ", ")),
+        cell.parents.empty() ? "" : fmt::format(" from {}", fmt::join(cell.parents, " and ")),
         cell.cell.max_dbz, cell.cell.max_dbz_height_m * feet_per_m / 1000,
         cell.cell.top_is_at_least ? "at least " : "", cell.cell.top_m * feet_per_m / 1000,
         cell.cell.vil_kg_per_m2);
@@ -84,8 +84,8 @@ std::string cell_mark(const TrackedCell& cell) {
                                    point_text(cell.cell.position), hover_text(cell));
     for (int i = 0; i <= sides; ++i) {
         const double angle = 2 * std::numbers::pi * i / sides;
-        text +=
-            fmt::format("  {:.0f}, {:.0f}\n", pixels * std::sin(angle), pixels * std::cos(angle));
+        text += fmt::format("  {}, {}\n", std::lround(pixels * std::sin(angle)),
+                            std::lround(pixels * std::cos(angle)));
     }
     return text + fmt::format(" End:\n Text: 16, 10, 1, \"{:.0f}\", \"{}\"\nEnd:\n",
                               cell.cell.max_dbz, hover_text(cell));
