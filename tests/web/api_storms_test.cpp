@@ -115,7 +115,7 @@ TEST_F(ApiStorms, RefuseWhatMakesNoSense) {
 TEST_F(ApiStorms, RotationHasPlaceLayerAndKnownError) {
     add_vortex(20, 10, true);
     const json all = geojson("/api/v1/rotation");
-    ASSERT_EQ(kinds(all), (Kinds{"rotation", "rotation"}));
+    ASSERT_EQ(kinds(all), (Kinds{"shear_maximum", "shear_maximum"}));
     const json& low = all["features"][0];
     EXPECT_EQ(low["properties"]["layer"], "low");
     EXPECT_NEAR(low["properties"]["azimuthal_shear_per_s"], 0.02, 2e-5);

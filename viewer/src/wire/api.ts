@@ -232,7 +232,7 @@ export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
         signal,
     });
 }
-// Returns the storm cells of a domain at a time as GeoJSON, which wire/storm_cells.ts reads.
+// Returns the storm cells of a domain at a time as GeoJSON, which page/storm_cells.ts reads.
 export function cells(domain: string, time: string): Promise<unknown> {
     return told(`api/v1/cells?${new URLSearchParams({ area: domain, time })}`);
 }

@@ -41,7 +41,7 @@ void add_rotation(const OpenGrid& grid, ApiJson& features) {
             grid.file.view(), {.bottom_m = base_m + layer.bottom_m, .top_m = base_m + layer.top_m});
         for (const retrieve::ShearPeak& peak : peaks) {
             ApiJson properties{
-                {"kind", "rotation"},
+                {"kind", "shear_maximum"},
                 {"area", grid.domain},
                 {"time", format_utc(grid.time)},
                 {"layer", layer.name},

@@ -24,7 +24,7 @@ StormTextFacts storm_text_facts(StormText text) {
         case StormText::cells_placefile:
             return {"placefile", "text/plain; charset=utf-8", level2::Moment::ref};
         case StormText::rotation_geojson:
-            return {"rotation", geojson_type, level2::Moment::azsh};
+            return {"shear", geojson_type, level2::Moment::azsh};
     }
     return {};
 }

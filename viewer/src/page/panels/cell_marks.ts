@@ -5,7 +5,7 @@ import { ViewGeometry } from '../../camera/geometry';
 import { Place, Plane, planeOf } from '../../earth/projection';
 import { shades } from '../../renderer/shades';
 import { cells } from '../../wire/api';
-import { StormCell, readCells } from '../../wire/storm_cells';
+import { StormCell, readCells } from '../storm_cells';
 import { App, Shown } from '../app';
 import { fontOf, textScale } from '../dom';
 import { Drawing } from '../drawing';

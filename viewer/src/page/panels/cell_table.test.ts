@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { StormCell } from '../../wire/storm_cells';
+import { StormCell } from '../storm_cells';
 import { usualUnits } from '../../tables/units';
 import { columns, sortedCells } from './cell_table';
 

@@ -1,7 +1,7 @@
 // Lists storm cells in a table. A click on a column's name sorts by it, and again the other way round.
 
 import { Units, heightText, shownUnit } from '../../tables/units';
-import { StormCell } from '../../wire/storm_cells';
+import { StormCell } from '../storm_cells';
 import { make } from '../dom';
 
 // Texts of the table. They are here because texts.ts is part of the first program of the page.
