@@ -10,8 +10,8 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr std::array window_lengths_m = {1750.0,  2250.0,  3250.0,  4750.0, 7250.0,
-                                         10250.0, 14250.0, 20250.0, 28250.0};
+constexpr std::array window_lengths_m = {1750.0, 2250.0,  3250.0,  4750.0,
+                                         7250.0, 10250.0, 14250.0, 20250.0};
 constexpr float confidence = 2.3F;  // standard errors of the intervals that must intersect
 // A gate takes windows with 0, 1, ... or 8 eighths of themselves before it. Windows about it count
 // in full, because a slope that changes evenly does not bias them.

@@ -4,7 +4,7 @@
 // Method    Gates count if their correlation coefficient is at least 0.85 and most neighbors agree
 //           with their phase within 30 degrees. Their phases are unfolded outward. Backscatter
 //           phase is left out: up to 3 km of gates that leave a line on which their neighbors on
-//           both sides stay. KDP is the mean slope of all windows of 1.75 to 28.25 km that hold the
+//           both sides stay. KDP is the mean slope of all windows of 1.75 to 20.25 km that hold the
 //           gate and whose slopes agree within 2.3 standard errors with those of shorter windows,
 //           so that windows are long where KDP is even, and short beside the edges of a core.
 //           Reflectivity has no part, so its calibration and hail do not matter.
