@@ -21,9 +21,10 @@ GridSpec nowcast_spec() {
     return spec;
 }
 
+// Returns two storms that do not touch, because the reflectivity has a kink where echoes touch.
 BrickGrid echo_at(double t_s, double east_mps, double north_mps, double seen_km = 1e9) {
-    const std::vector<Blob> blobs = {{-10, -8, 12, 55, east_mps, north_mps},
-                                     {15, 5, 7, 38, east_mps, north_mps}};
+    const std::vector<Blob> blobs = {{-20, -15, 12, 55, east_mps, north_mps},
+                                     {18, 14, 7, 38, east_mps, north_mps}};
     return BrickGrid::from(blob_grid(nowcast_spec(), blobs, t_s, seen_km),
                            default_quantization(level2::Moment::ref));
 }
