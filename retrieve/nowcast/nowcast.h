@@ -6,11 +6,14 @@
 //           (grid/mosaic/extrapolation.h).
 // Units     Reflectivity in dBZ, leads in minutes.
 // Refused   A nowcast needs two grids or more of the same cells, at most 30 minutes apart, and a
-//           motion that is known. Leads are at most 60 minutes, because echo of a few kilometers
-//           lives no longer (Germann and Zawadzki 2002).
-// Accuracy  Unknown from the method alone, because echo grows and decays. retrieve/nowcast/
-//           hindcast.h measures it on the grids at hand, and pictures and files say the result.
+//           motion that is known. Leads are at most 60 minutes, because storms change sooner than
+//           they move away.
+// Accuracy  On the five volumes of KBGM of 2005-08-22, the mean absolute error after 6, 13 and 18
+//           minutes is 1.9, 2.3 and 2.6 dB, and that of persistence 2.7, 3.3 and 3.7 dB
+//           (bench/compare_nowcast.py). There is no bound: retrieve/nowcast/hindcast.h measures the
+//           error on the grids at hand, and pictures and files say the result.
 // Not covered  Growth, decay and new storms; learned nowcasts.
+// Source    Germann and Zawadzki (2002), Mon. Wea. Rev. 130, 2859.
 // Threads   Pure functions. The results have the same bits for any number of threads.
 #pragma once
 
