@@ -15,15 +15,15 @@
 namespace stormcellar::cli {
 
 struct SitePairs {
-    UtcTime instant;  // the middle of the time that the newest volumes cover
+    UtcTime instant;  // --time, else pipeline::instant_of_newest()
     std::vector<std::string> stations;
     std::vector<grid::SiteComparison> pairs;  // the pairs of sites that may overlap, sorted by name
 };
 
-// Compares files of two or more sites. Clocks are compared only for pairs in which a site has two
-// volumes, because these show how the weather moves. With `shows_progress`, shows a progress bar
-// for the pairs. Errors: bad_argument for another moment than REF or files of one site; those of
-// load_mosaic() and grid_sources().
+// Compares files of two or more sites. Clocks are compared only if a site of the pair has two
+// volumes, because two volumes show the motion of the weather. With `shows_progress`, shows a
+// progress bar for the pairs. Errors: bad_argument for another moment than REF or files of one
+// site; those of load_mosaic() and grid_volumes().
 [[nodiscard]] Result<SitePairs> compare_site_files(const std::vector<std::string>& files,
                                                    const GridRequest& request,
                                                    const EffectRequest& effects,

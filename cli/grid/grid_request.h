@@ -44,8 +44,8 @@ struct GridOptions {
     bool json = false;
 };
 
-// Adds FILE, --output, --time, --fields and the options of add_spec_options(). Also lets --moment
-// name several moments.
+// Adds FILE, --output, --time, --fields, --volume and the options of add_spec_options(). Also lets
+// --moment name several moments.
 void add_grid_options(CLI::App& app, GridOptions& options);
 // Adds the options for the center of the grid, its cells and its levels.
 void add_place_options(CLI::App& app, GridOptions& options);
@@ -68,8 +68,7 @@ struct GridRequest {
     SizeUnit spacing_unit = SizeUnit::km;  // degrees are only for latitude_longitude
     std::vector<double> levels_m;          // empty: those of grid::default_spec()
     level2::Moment moment = level2::Moment::ref;
-    std::vector<level2::Moment> more_moments;  // in addition to the first, in the order of the list
-                                               // of moments
+    std::vector<level2::Moment> more_moments;  // besides `moment`, in the order of level2::Moment
     retrieve::DerivedOptions derived;          // for moments that are derived
     // Plans the rung of dealiasing for a volume; null: as in `derived`.
     std::function<Result<retrieve::Dealiasing>(const level2::Volume&)> plan_dealiasing;
@@ -79,7 +78,8 @@ struct GridRequest {
     bool site_counts = false;           // with several files: count the sites of each cell
     bool site_weights = false;
     SiteRequest site;  // applies to every file
-    // Number in a single file, from 1; 0: the first volume, or the newest if it is chunks.
+    // Number of the volume in the single file, from 1. 0: the first volume with the moment, or the
+    // newest volume of a directory of chunks.
     int volume = 0;
     // The files found for the names; null: each name is one file.
     std::shared_ptr<InputFiles> inputs;

@@ -132,7 +132,7 @@ void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json
         if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
 }
 
-// If the status file names another socket, uses that socket.
+// Adds the socket that the status file names, unless the list has it, to be tried last.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
     if (!document) return;
@@ -152,7 +152,8 @@ StatusPlaces places_in(const ServicePlaces& service) {
         return places;
     }
     places.sockets = {service.state / socket_name};
-    // If the state directory is the usual one, the runtime directory is systemd's.
+    // With the usual state directory, the daemon is probably run by systemd, whose socket comes
+    // first.
     if (service.state == usual_state) {
         places.sockets.insert(places.sockets.begin(), fs::path{usual_runtime} / socket_name);
     }

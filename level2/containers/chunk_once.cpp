@@ -7,8 +7,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// A chunk begins with a volume header and the first bytes of a record, or with a record and the
-// checksum of its first block. No other chunk begins with the same bytes.
+// The first bytes of a chunk are a volume header and the start of a record, or the start of a
+// record with the checksum of its first block. No two chunks begin alike.
 constexpr std::size_t sign_bytes = 32;
 
 }  // namespace

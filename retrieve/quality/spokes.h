@@ -4,11 +4,10 @@
 //           are full of echo in one to three radials and empty two radials beside them. A sun spike
 //           is a radial within 1.5 degrees of the sun that has the same power, a reflectivity less
 //           20 log r within 6 dB, in at least 40 km of its bins.
-// Accuracy  tests/retrieve/spokes_test.cpp: finds 90 % of the gates of synthetic interference and
-// 95
-//           % of a synthetic sun spike, and two real sun spikes within 1.2 degrees of the spike
-//           that the picture shows. Not covered: spokes in dense echo, spokes wider than
-//           three radials, and short or broken ones (pulses of other radars).
+// Accuracy  tests/retrieve/spokes_test.cpp: finds 90 % of the gates of synthetic interference, 95 %
+//           of a synthetic sun spike, and two real sun spikes within 1.2 degrees of the sun.
+// Not covered  Spokes in dense echo, spokes wider than three radials, and short or broken ones
+//           (pulses of other radars).
 // Threads   Pure functions.
 #pragma once
 

@@ -131,7 +131,7 @@ std::string squeezed(const std::string& text) {
     return std::regex_replace(text, blank, " ");
 }
 
-// The table has the words of each format of a log call and of the reporter's lines.
+// The chapter has the longest piece of each text of a log call and of the reporter.
 TEST(LogLines, TheManualHasTheirWords) {
     constexpr std::size_t too_short = 6;  // " ({})", "SIGINT": too short to look for
     static const std::regex call(R"((\blog_(?:debug|info|warning|error|line|problem)\())");

@@ -65,8 +65,8 @@ Shares shares_of(const level2::Volume& volume, bool only_single) {
     return {removed / other, kept / weather};
 }
 
-// KDMX of March 2022 did not teach. Its other echo lies amid snow, so it is the hardest of the
-// volumes that test.
+// The rules were not made from the volume of KDMX of March 2022. Its echo that is no weather lies
+// amid snow, so it is the hardest of the five volumes that score the rules.
 TEST(Quality, TellsWeatherInAVolumeThatDidNotTeach) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = volume_of("KDMX20220305_232324.trimmed.ar2v");
@@ -124,7 +124,7 @@ level2::Volume one_sweep(int radials, int gates, std::uint8_t code) {
     return volume;
 }
 
-// Each volume gives a probability for each gate with echo.
+// Each gate with echo gets a probability. A volume without gate spacing gets none.
 TEST(Quality, HardCasesHaveAProbabilityForEachGateWithEcho) {
     EXPECT_TRUE(weather_probabilities({}).empty());
     for (const auto& [radials, gates] : {std::pair{1, 1}, {2, 3}, {360, 1}, {1, 460}, {367, 460}})
@@ -216,7 +216,7 @@ TEST(QualityMoment, LeavesOutGatesBelowTheLimitAndNoOthers) {
         }
     }
     ASSERT_GT(left_out, 0);
-    // The volume is of snow with echo of the ground and speckles that have no name.
+    // In this volume of snow, most of the echo that is left out is of the kind `other`.
     const std::string text = quality_in_notes(derived->notes);
     const std::string begin =
         fmt::format("probability of weather at least 0.5; {:.1f} % of the echo left out: other ",

@@ -17,7 +17,8 @@ namespace {
 using grid::CellStatus;
 
 constexpr UtcTime total_start{std::chrono::sys_days{std::chrono::year{2024} / 6 / 1}};
-constexpr double storm_km = 3, storm_mm_per_h = 60, storm_mps = 30, apart_s = 300, hour_s = 3600;
+constexpr double storm_km = 3, storm_mm_per_h = 60, moving_storm_mps = 30, apart_s = 300,
+                 hour_s = 3600;
 // Storms begin here and move to the east.
 constexpr std::array<std::array<double, 2>, 6> storms_km = {
     {{-95, -50}, {-80, -31}, {-90, -10}, {-75, 11}, {-88, 30}, {-70, 50}}};
@@ -43,7 +44,7 @@ grid::BrickGrid storms_at(double t_s, double seen_km = 1e9) {
             const double x = rates.spec.x_m(ix) / 1000, y = rates.spec.y_m(iy) / 1000;
             double rate = 0;
             for (const auto& [x_km, y_km] : storms_km) {
-                const double dx = x - x_km - storm_mps * t_s / 1000, dy = y - y_km;
+                const double dx = x - x_km - moving_storm_mps * t_s / 1000, dy = y - y_km;
                 rate += storm_mm_per_h * std::exp(-(dx * dx + dy * dy) / (2 * storm_km * storm_km));
             }
             for (int iz = 0; iz < 2; ++iz) {
@@ -63,10 +64,10 @@ double true_mm(double x_km, double y_km) {
     for (const auto& [storm_x, storm_y] : storms_km) {
         const double width = storm_km * std::numbers::sqrt2;
         const double begin = (x_km - storm_x) / width;
-        const double end = (x_km - storm_x - storm_mps * hour_s / 1000) / width;
+        const double end = (x_km - storm_x - moving_storm_mps * hour_s / 1000) / width;
         const double dy = (y_km - storm_y) / width;
         mm += storm_mm_per_h * std::exp(-dy * dy) * (std::erf(begin) - std::erf(end)) * width *
-              std::sqrt(std::numbers::pi) / 2 / (storm_mps * hour_s / 1000);
+              std::sqrt(std::numbers::pi) / 2 / (moving_storm_mps * hour_s / 1000);
     }
     return mm;
 }

@@ -2,10 +2,9 @@
 // hail from a column of reflectivity.
 //
 // Method    The flux of kinetic energy of hail, 5e-6 * 10^(0.084 dBZ) * W, is integrated over
-// height
-//           from the level of 0 C up. W grows from 0 at 40 dBZ to 1 at 50 dBZ. A second weight
-//           grows from 0 at the level of 0 C to 1 at the level of -20 C. A tenth of the integral is
-//           the severe hail index (SHI). From SHI follow
+//           height from the level of 0 C up. W grows from 0 at 40 dBZ to 1 at 50 dBZ. A second
+//           weight grows from 0 at the level of 0 C to 1 at the level of -20 C. A tenth of the
+//           integral is the severe hail index (SHI). From SHI follow
 //             POSH    29 ln(SHI / WT) + 50, from 0 to 100 %: probability of hail of at least 19 mm
 //             WT      57.5 H - 121, at least 20 J/m/s; H is the height of 0 C above the radar in km
 //             MESH    2.54 SHI^0.5, a size that a quarter of the reported stones exceed

@@ -21,8 +21,7 @@
 //           Noise that neighboring gates share looks like KDP, and its error is stated too low.
 // Source    Windows that adapt: Goldenshluger and Nemirovski (1997), Katkovnik (1999). Limits on
 //           correlation and backscatter phase follow the practice of Hubbert and Bringi (1995).
-//           Aldana et al. (2025, AMT 18, 793) compare other methods in rain; their score needs a
-//           disdrometer's relation of KDP to Z and ZDR, which these ramps replace.
+//           The settings and scores of Aldana et al. (2025, AMT 18, 793) were not reproduced.
 // Threads   Pure functions.
 #pragma once
 
