@@ -134,7 +134,7 @@ TEST(Nowcast, NeedsTwoGridsOfTheSameCells) {
 
 TEST(Nowcast, IsRefusedAcrossAGapAndForOneInstant) {
     EXPECT_THAT(refusal_of(drifting(2, 1900)), HasSubstr("gap of 32 minutes"));
-    EXPECT_EQ(refusal_of(drifting(2, 1800)), "");
+    EXPECT_EQ(refusal_of(drifting(2, 600)), "");
     EXPECT_THAT(refusal_of(drifting(2, 0)), HasSubstr("different times"));
 }
 
