@@ -129,8 +129,8 @@ constexpr Anchor kdp_anchors[] = {
 // Light rain is translucent on maps.
 constexpr Anchor rain_anchors[] = {
     {0, 0x2C3550, 0}, {0.2F, 0x33436A, 0.3F}, {1, 0x3A5590, 0.8F}, {2.5F, 0x2F6FBE},
-    {6, 0x2A93B8},    {12, 0x3FBF8F},         {25, 0x8CCB52},      {50, 0xE6CC36},
-    {100, 0xFFEFA8},  {200, 0xFFFDF2},
+    {6, 0x2A93B8},    {12, 0x3FBF8F},         {25, 0x8CCB52},      {45, 0xE6CC36},
+    {70, 0xFFEFA8},   {100, 0xFFFDF2},
 };
 
 constexpr Anchor phi_anchors[] = {

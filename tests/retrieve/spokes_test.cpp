@@ -98,9 +98,9 @@ struct SunCase {
     double azimuth_deg;
 };
 
-// Pictures of both sweeps show a spike of one or two radials to the end of the range, and nothing
-// like it at other azimuths: KTLX at 14.0 degrees at 18:00 local time, through a storm; KBBX at
-// 15.6 degrees at 09:11 local time.
+// Both sweeps have a spike of one or two radials to the end of the range, and nothing like it at
+// other azimuths: KTLX at 14.0 degrees at 18:00 local time, behind a storm; KBBX at 15.6 degrees at
+// 09:11 local time, below 5 dBZ.
 TEST(Spokes, FindsTheSunInRealVolumes) {
     STORMCELLAR_NEED_DATA();
     for (const SunCase& one : {SunCase{"volumes/KTLX19990503_235621.gz", "1999-05-04T00:00:34Z",
