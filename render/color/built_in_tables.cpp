@@ -119,6 +119,11 @@ constexpr ColorClass vil_density_classes[] = {
     {4, 0xD41F3A},    {4.5, 0xA3123F}, {5, 0xD64BC8}, {6, 0xF4C6F2},
 };
 
+constexpr ColorClass rain_total_classes[] = {{0.2F, 0x3B4A6B}, {1, 0x3A5F9E},   {2.5F, 0x2F7FCB},
+                                             {5, 0x2AA0B8},    {10, 0x36B384},  {15, 0x63C05A},
+                                             {25, 0xB4CC3E},   {40, 0xEBCB35},  {60, 0xF29A2E},
+                                             {80, 0xE85A34},   {100, 0xC9294F}, {150, 0xD56AD0}};
+
 constexpr ColorClass hail_size_classes[] = {
     {5, 0x6C7A89},  {10, 0x4F7FB5}, {15, 0x2FA4D8},  {20, 0x35C3A0},
     {25, 0x43B649}, {30, 0xA5CF3B}, {40, 0xFFDC3C},  {50, 0xFF9A2E},
@@ -196,6 +201,7 @@ constexpr std::array stepped_tables{
     SteppedTable{"hail-size", {}, "mm", hail_size_classes, 150},
     SteppedTable{"hail-probability", {}, "%", hail_probability_classes, 110},
     SteppedTable{"hail-index", {}, "J/m/s", hail_index_classes, 3500},
+    SteppedTable{"rain-total", {}, "mm", rain_total_classes, 200},
     SteppedTable{"safe-reflectivity", Moment::ref, {}, safe_reflectivity_classes, 80},
     SteppedTable{"safe-velocity", Moment::vel, {}, safe_velocity_classes, 40, -40.0F},
     SteppedTable{"safe-zdr", Moment::zdr, {}, safe_zdr_classes, 8, -4.0F},
@@ -272,6 +278,9 @@ const ColorTable& hail_probability_colors() {
 }
 const ColorTable& hail_index_colors() {
     return table_named("hail-index");
+}
+const ColorTable& rain_total_colors() {
+    return table_named("rain-total");
 }
 const ColorTable& clear_air_colors() {
     return table_named("smooth-clear-air");

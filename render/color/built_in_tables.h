@@ -16,6 +16,7 @@
 //   hail-size           mm      our own colors for MESH; green begins at the 25 mm of severe hail
 //   hail-probability    %       our own colors for POSH; green begins at 50 %
 //   hail-index          J/m/s   our own colors for SHI, those of the size that follows from it
+//   rain-total          mm      our own colors
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/moment_look.h)
@@ -68,6 +69,7 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 [[nodiscard]] const ColorTable& hail_size_colors();
 [[nodiscard]] const ColorTable& hail_probability_colors();
 [[nodiscard]] const ColorTable& hail_index_colors();
+[[nodiscard]] const ColorTable& rain_total_colors();
 
 // The families. A family has one table for each moment: "smooth" has the default table without
 // classes, and "nws" the default table with classes.

@@ -209,6 +209,7 @@ constexpr auto product_facts = std::to_array<ProductFacts>({
      .aside = "of several volumes",
      .title = rain_total_title,
      .unit = "mm",
+     .colors = rain_total_colors,
      .only_moment = level2::Moment::rate,
      .is_smooth = true,
      .is_over_time = true,
