@@ -232,6 +232,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--field-of-view", "DEGREES"},
     {"--echo-top-dbz", "DBZ"},
     {"--freezing-levels", "ZERO,MINUS20"},
+    {"--minutes", "MINUTES"},
     {"--width", "PIXELS"},
     {"--height", "PIXELS"},
 });

@@ -58,25 +58,25 @@ TEST_F(NowcastCommand, BeatsPersistenceAtEachLeadOfARealSequence) {
 
 TEST_F(NowcastCommand, WritesPicturesAndGridsThatSayWhatTheyAre) {
     Words words = whole_sequence();
-    for (const char* word : {"--minutes", "10,45", "--product", "composite", "--width", "640",
+    for (const char* word : {"--minutes", "12,45", "--product", "composite", "--width", "640",
                              "--height", "480", "-o"})
         words.emplace_back(word);
     words.push_back(out("soon.png"));
     const auto drawn = run(words);
     EXPECT_EQ(drawn.status, 0) << drawn.err;
-    EXPECT_TRUE(fs::exists(out("soon-10.png")));
+    EXPECT_TRUE(fs::exists(out("soon-12.png")));
     EXPECT_TRUE(fs::exists(out("soon-45.png")));
     EXPECT_THAT(drawn.out, HasSubstr("error unknown"));  // of 45 minutes
 
     Words grid = whole_sequence();
-    for (const char* word : {"--minutes", "10", "-o"})
+    for (const char* word : {"--minutes", "12", "-o"})
         grid.emplace_back(word);
     grid.push_back(out("soon.nc"));
     EXPECT_EQ(run(grid).status, 0);
     std::ifstream file(out("soon.nc"), std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    EXPECT_THAT(bytes, HasSubstr("nowcast, 10 minutes, by advection"));
-    EXPECT_THAT(bytes, HasSubstr("error of the nowcast: measured on "));
+    EXPECT_TRUE(bytes.find("nowcast, 12 minutes, by advection") != bytes.npos);
+    EXPECT_TRUE(bytes.find("error of the nowcast: measured on ") != bytes.npos);
 }
 
 TEST_F(NowcastCommand, UsesNothingThatIsLaterThanItsTime) {
