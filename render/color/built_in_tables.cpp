@@ -201,7 +201,7 @@ constexpr std::array stepped_tables{
     SteppedTable{"hail-size", {}, "mm", hail_size_classes, 150},
     SteppedTable{"hail-probability", {}, "%", hail_probability_classes, 110},
     SteppedTable{"hail-index", {}, "J/m/s", hail_index_classes, 3500},
-    SteppedTable{"rain-total", {}, "mm", rain_total_classes, 200},
+    SteppedTable{"rain-depth", {}, "mm", rain_total_classes, 200},
     SteppedTable{"safe-reflectivity", Moment::ref, {}, safe_reflectivity_classes, 80},
     SteppedTable{"safe-velocity", Moment::vel, {}, safe_velocity_classes, 40, -40.0F},
     SteppedTable{"safe-zdr", Moment::zdr, {}, safe_zdr_classes, 8, -4.0F},
@@ -280,7 +280,7 @@ const ColorTable& hail_index_colors() {
     return table_named("hail-index");
 }
 const ColorTable& rain_total_colors() {
-    return table_named("rain-total");
+    return table_named("rain-depth");
 }
 const ColorTable& clear_air_colors() {
     return table_named("smooth-clear-air");

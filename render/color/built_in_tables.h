@@ -16,7 +16,7 @@
 //   hail-size           mm      our own colors for MESH; green begins at the 25 mm of severe hail
 //   hail-probability    %       our own colors for POSH; green begins at 50 %
 //   hail-index          J/m/s   our own colors for SHI, those of the size that follows from it
-//   rain-total          mm      our own colors
+//   rain-depth          mm      our own colors for rain totals
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
 //   smooth-...          one table without classes for each moment (render/color/moment_look.h)
