@@ -123,14 +123,12 @@ constexpr Anchor quality_anchors[] = {
 
 constexpr Anchor kdp_anchors[] = {
     {-2, 0x14101F},   {-0.75F, 0x2C2347}, {-0.2F, 0x3F3F4C}, {0.2F, 0x4A5060}, {0.75F, 0x2F6FBE},
-    {1.5F, 0x2A93B8}, {2.5F, 0x3FBF8F},   {3.5F, 0x8CCB52},  {5, 0xE6CC36},    {8, 0xFFF4C8},
+    {1.5F, 0x2A8FB8}, {2.5F, 0x35A584},   {3.5F, 0x52B055},  {5, 0xEEDD55},    {8, 0xFFFBEA},
 };
 
-// Light rain is translucent on maps.
 constexpr Anchor rain_anchors[] = {
-    {0, 0x2C3550, 0}, {0.2F, 0x33436A, 0.3F}, {1, 0x3A5590, 0.8F}, {2.5F, 0x2F6FBE},
-    {6, 0x2A93B8},    {12, 0x3FBF8F},         {25, 0x8CCB52},      {45, 0xE6CC36},
-    {70, 0xFFEFA8},   {100, 0xFFFDF2},
+    {0, 0x2C3550},  {0.2F, 0x33436A}, {1, 0x3A5590},  {2.5F, 0x2F6FBE}, {6, 0x2A8FB8},
+    {12, 0x35A584}, {25, 0x52B055},   {45, 0xD9CC3C}, {70, 0xFFF0B0},   {100, 0xFFFDF2},
 };
 
 constexpr Anchor phi_anchors[] = {
@@ -244,8 +242,8 @@ std::vector<ExtinctionPoint> rho_extinction(float /*lowest*/) {
 std::vector<ExtinctionPoint> quality_extinction(float /*lowest*/) {
     return {{0, 0.02}, {0.5F, 0.04}, {1, 0.06}};
 }
-std::vector<ExtinctionPoint> kdp_extinction(float /*lowest*/) {
-    return {{0, 0.005}, {0.5F, 0.02}, {2, 0.3}, {5, 1.5}};
+std::vector<ExtinctionPoint> kdp_extinction(float lowest) {
+    return {{lowest, 0.005}, {0.5F, 0.02}, {2, 0.3}, {5, 1.5}};
 }
 std::vector<ExtinctionPoint> rain_extinction(float /*lowest*/) {
     return {{0, 0.001}, {2, 0.01}, {10, 0.06}, {50, 0.8}, {100, 2}};
