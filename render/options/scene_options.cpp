@@ -211,9 +211,8 @@ Status check_stored_derivation(const SceneOptions& options, Product product) {
 
 Status check_single_grid(Product product) {
     if (!facts_of(product).is_over_time) return {};
-    return fail(ErrorCode::bad_argument,
-                "{} {} made from several volumes: give several files{}", product_name(product),
-                facts_of(product).is_sum ? "is" : "are",
+    return fail(ErrorCode::bad_argument, "{} {} made from several volumes: give several files{}",
+                product_name(product), facts_of(product).is_sum ? "is" : "are",
                 facts_of(product).is_sum ? "" : ", or draw a loop");
 }
 
