@@ -43,7 +43,7 @@ test('the page leaves out echo that is probably no weather, and says how much', 
   await expect(told(viewer)).toContainText(/, weather only: \d+ % of the echo left out/);
   await viewer.keep('weather-only');
   await viewer.catchCopies();
-  expect(await viewer.copiedBy('command')).toContain('--product ppi --elevation 0.5 --quality 0.5 ');
+  expect(await viewer.copiedBy('command')).toContain('--product ppi --sweep 0 --quality 0.5 ');
   await viewer.open(`${above}&elevation=0.5&weather=1`);
   await expect(told(viewer)).toContainText('weather only');
 });
