@@ -8,9 +8,7 @@
 //   max_dbz    largest reflectivity of a cell
 //   cells_ms   CPU time of one thread to find the cells with hail, the least of the runs
 //   motion_ms  CPU time of the motion of the echo, from the volume to itself
-#include <ctime>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "bench/measure.h"
@@ -36,17 +34,6 @@ Result<grid::BrickGrid> gridded_volume(const std::filesystem::path& file) {
     const auto made = grid::make_grid(*volume, *site, **columns, {});
     if (!made) return pass_on(made);
     return grid::BrickGrid::from(*made, grid::default_quantization(level2::Moment::ref));
-}
-
-template <class Work>
-double least_cpu_ms(int runs, const Work& work) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < runs; ++i) {
-        const std::clock_t start = std::clock();
-        work();
-        least = std::min(least, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    }
-    return least;
 }
 
 void measure_cells(const std::filesystem::path& file, const Request& request, Table& table) {

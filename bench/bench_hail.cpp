@@ -15,9 +15,7 @@
 // Prints SHI, POSH, MESH, MESH75 and MESH95 of each column in a line. bench/compare_hail.py uses
 // this.
 #include <algorithm>
-#include <ctime>
 #include <iostream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -45,17 +43,6 @@ Value needed(Result<Value> result) {
     return std::move(*result);
 }
 
-template <class Work>
-double least_ms(int runs, const Work& work) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < runs; ++i) {
-        const std::clock_t start = std::clock();
-        work();
-        least = std::min(least, 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    }
-    return least;
-}
-
 grid::BrickGrid gridded(const std::filesystem::path& file) {
     const auto volume = needed(decode_ref(file, 1));
     const auto site = needed(site_of(volume));
@@ -73,12 +60,12 @@ void measure(const std::filesystem::path& file, const Request& request, Table& t
     render::FlatField map;
     std::optional<render::LargestHail> largest;
     const double columns_ms =
-        least_ms(request.runs, [&] { columns = render::summarize_columns(view, 1); });
-    const double map_ms = least_ms(request.runs, [&] {
+        least_cpu_ms(request.runs, [&] { columns = render::summarize_columns(view, 1); });
+    const double map_ms = least_cpu_ms(request.runs, [&] {
         map = needed(render::hail_field(view, &retrieve::Hail::mesh_mm, levels, 0, columns, 1));
     });
-    const double range_ms =
-        least_ms(request.runs, [&] { largest = needed(render::largest_hail(view, levels, 1)); });
+    const double range_ms = least_cpu_ms(
+        request.runs, [&] { largest = needed(render::largest_hail(view, levels, 1)); });
     const auto with_hail = std::ranges::count(map.status, grid::CellStatus::value);
     const render::LargestHail none;
     const render::LargestHail& shown = largest ? *largest : none;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,19 @@ double seconds_of(Work work) {
 template <class Work>
 void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));
+}
+
+// Returns the processor time of the quickest of several runs, in milliseconds, which other programs
+// on the machine change less than the time by the clock.
+template <class Work>
+double least_cpu_ms(int runs, const Work& work) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < runs; ++i) {
+        const double start = cpu_s();
+        work();
+        least = std::min(least, 1e3 * (cpu_s() - start));
+    }
+    return least;
 }
 
 // Returns the bzip2 streams of the LDM records in a file; empty if there are none. `peeled`

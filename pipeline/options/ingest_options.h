@@ -72,7 +72,7 @@ struct IngestOptions {
     // The moments of each site's own grids. A volume is decoded once for all, with one geometry.
     // Not empty.
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    // How moments are derived. Its quality holds for all grids.
+    // Says how to derive moments. Its quality holds for all grids.
     retrieve::DerivedOptions derived;
     double spacing_m = 1000;
     int nx = 460, ny = 460;
