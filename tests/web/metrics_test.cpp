@@ -139,8 +139,8 @@ TEST_F(Metrics, TellWhatTheServerDidAndHolds) {
     EXPECT_EQ(value("stormcellar_web_cache_watched"), 1);
     EXPECT_EQ(value("stormcellar_web_events_total"), 0);
     ASSERT_TRUE(testing::commit_sized(store_, "KBGM", testing::noon));
-    (void)events.read_until("event: volume_complete");
-    EXPECT_EQ(value("stormcellar_web_events_total"), 2);
+    (void)events.read_until("event: cells");
+    EXPECT_EQ(value("stormcellar_web_events_total"), 3);
     EXPECT_EQ(value("stormcellar_web_stations"), 1);
 }
 
