@@ -4,8 +4,8 @@
 // usage: bench_web [--data DIR] [--seconds N] [--clients "1 64"] [--json]
 //        [--tiles [--requests 20] [--cache DIR]] [FILE ...]      (bench/request.h)
 // `stormcellar serve` with the files (by default one busy volume) and nginx take turns on one
-// processor, while wrk runs on another. A row takes --seconds N (5). There is a row for each kind
-// of request and number of clients:
+// processor, while wrk runs on another. The measurement begins when all grids of the files are
+// made. A row takes --seconds N (5). There is a row for each kind of request and number of clients:
 //   what            kind of request, and server
 //   clients         number of open connections
 //   requests_per_s  answers a second
@@ -158,10 +158,18 @@ std::size_t number_of(const Request& request, std::string_view option, std::size
     return text ? static_cast<std::size_t>(std::max(1, std::atoi(text->c_str()))) : usual;
 }
 
+// Waits until the server has made all grids of its files. It listens sooner, and gridding would
+// take the processor from the requests that are measured.
+Status wait_for_grids(Result<WebServer>& server) {
+    if (!server) return pass_on(server);
+    if (server->process.wait_until_idle(std::chrono::minutes{10})) return {};
+    return fail(ErrorCode::not_found, "stormcellar serve did not finish its grids");
+}
+
 Status measure_load(const std::vector<fs::path>& files, const Request& request,
                     const fs::path& scratch, Table& table) {
     auto ours = serve({files.begin(), files.end()}, scratch, processor_of_servers);
-    if (!ours) return pass_on(ours);
+    if (Status idle = wait_for_grids(ours); !idle) return idle;
     WebBench bench(std::move(*ours), scratch, table);
     const auto packed = bench.packed_grids();
     if (!packed) return pass_on(packed);
@@ -213,9 +221,9 @@ std::vector<std::string> tiles_about(const TilePlace& place, std::string_view la
     return paths;
 }
 
-Status measure_tiles_of(const TilePlace& place, const Result<WebServer>& server, std::size_t count,
+Status measure_tiles_of(const TilePlace& place, Result<WebServer> server, std::size_t count,
                         const fs::path& scratch, Table& table) {
-    if (!server) return pass_on(server);
+    if (Status idle = wait_for_grids(server); !idle) return idle;
     for (const render::ProductFacts& facts : render::all_products()) {
         if (facts.view != render::View::map || facts.is_of_sweep) continue;
         const auto first = get_all(

@@ -118,6 +118,21 @@ double ChildProcess::cpu_s() const {
     return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
+bool ChildProcess::wait_until_idle(std::chrono::seconds most) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    auto busy = start;
+    double before_s = cpu_s();
+    while (Clock::now() - busy < std::chrono::seconds{1}) {
+        if (Clock::now() - start > most || !is_running()) return false;
+        std::this_thread::sleep_for(step);
+        const double now_s = cpu_s();
+        if (now_s > before_s) busy = Clock::now();
+        before_s = now_s;
+    }
+    return true;
+}
+
 double ChildProcess::memory_mib(std::string_view line) const {
     std::ifstream file(fmt::format("/proc/{}/status", child_));
     for (std::string text; std::getline(file, text);) {

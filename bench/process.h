@@ -5,6 +5,7 @@
 //           (PR_SET_PDEATHSIG).
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,6 +43,9 @@ class ChildProcess {
     [[nodiscard]] std::string output() const;  // its stdout so far
 
     [[nodiscard]] double cpu_s() const;  // of all threads of the child, since its start
+    // Waits until the child has used no CPU time for a second, at most `most`. Returns false if the
+    // child is still busy then, or has ended.
+    bool wait_until_idle(std::chrono::seconds most);
     // Returns a line of the child's status (proc(5)) in MiB; "VmHWM" is its peak resident memory.
     [[nodiscard]] double memory_mib(std::string_view line = "VmHWM") const;
     [[nodiscard]] pid_t id() const { return child_; }
