@@ -19,6 +19,8 @@ constexpr double most_off = 0.1;  // pixels
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 constexpr double degrees_per_mercator_m = 180 / mercator_edge_m;
 
+constexpr Rgba8 clear = {0, 0, 0, 0}, black = {0, 0, 0, 255};
+
 using grid::ColumnPoint;
 
 ColumnPoint mixed(ColumnPoint a, ColumnPoint b, double share) {
@@ -107,19 +109,26 @@ class PlaceColors {
         if (map_.smooth) {
             const SmoothField::Place place =
                 cells_.at((x + 0.5) * per_column_ - 0.5, (y + 0.5) * per_column_ - 0.5);
-            return overlay_color(place.status, place.value, map_.table);
+            return color(place.status, place.value);
         }
         const int column = static_cast<int>(x + 0.5) >> map_.halvings;
         const int row = static_cast<int>(y + 0.5) >> map_.halvings;
         const std::size_t cell = map_.field.index(column, row);
         if (cell != last_cell_) {
             last_cell_ = cell;
-            last_color_ = overlay_color(map_.field, cell, map_.table);
+            last_color_ = color(map_.field.status[cell], map_.field.values[cell]);
         }
         return last_color_;
     }
 
   private:
+    [[nodiscard]] Rgba8 color(grid::CellStatus status, float value) const {
+        const bool is_unseen = status == grid::CellStatus::not_seen;
+        if (map_.look == PlaneLook::unseen) return is_unseen ? black : clear;
+        if (map_.look == PlaneLook::echo && is_unseen) return clear;
+        return overlay_color(status, value, map_.table);
+    }
+
     const PlaneMap& map_;
     SmoothField cells_;
     double per_column_;
@@ -216,7 +225,8 @@ class PlanePainter {
     void set_pixel(int x, int y, ColumnPoint at) {
         if (!is_on_grid(map_.spec, at)) return;
         const Rgba8 color = colors_.at(at.x, at.y);
-        if (color[3] != 0) std::memcpy(pixel(x, y), color.data(), color.size());
+        if (color[3] != 0 || map_.look == PlaneLook::unseen)
+            std::memcpy(pixel(x, y), color.data(), color.size());
     }
     [[nodiscard]] std::uint8_t* pixel(int x, int y) {
         return image_.rgba.data() +
@@ -233,6 +243,10 @@ class PlanePainter {
 };
 
 }  // namespace
+
+Rgba8 color_outside(PlaneLook look) {
+    return look == PlaneLook::unseen ? black : clear;
+}
 
 EarthBox earth_box_of(const grid::GridSpec& spec) {
     const grid::GridProjection projection(spec);
@@ -277,7 +291,7 @@ bool meets(const PlaneWindow& window, const EarthBox& box) {
 }
 
 Image draw_on_plane(const PlaneMap& map, const PlaneWindow& window) {
-    Image image(std::max(0, window.width), std::max(0, window.height), {0, 0, 0, 0});
+    Image image(std::max(0, window.width), std::max(0, window.height), color_outside(map.look));
     PlanePainter painter(map, window, image);
     for_each_copy(window, map.box, [&](const PixelBox& pixels) { painter.draw(pixels); });
     return image;

@@ -1,16 +1,16 @@
 // render/still/plane_picture.h -- draws a 2D product on a rectangle of a map's plane, for tiles and
 // pictures of web maps.
 //
-// A pixel shows the cell that holds its center, in the color of overlay_color(). A pixel outside
-// the grid is transparent. The field may be coarser than the grid: then each of its cells covers
-// 2^halvings by 2^halvings columns, counted from the southwest corner of the grid.
+// A pixel shows the cell that holds its center, in the color that PlaneLook says. The field may be
+// coarser than the grid: then each of its cells covers 2^halvings by 2^halvings columns, counted
+// from the southwest corner of the grid.
 //
 // Units     Web Mercator (EPSG:3857) in meters of its plane, degrees as longitude and latitude.
 // Accuracy  Places on the grid are interpolated between the corners of squares of pixels. A square
 //           is divided if its middle, or the middle of a side, is off by more than a tenth of a
 //           pixel.
 // Threads   Pure functions.
-// Errors    None: a window that has no pixels or is off the grid gives transparent pixels.
+// Errors    None: a window off the grid has the color of pixels outside the grid.
 #pragma once
 
 #include "render/products/flat_field.h"
@@ -49,6 +49,15 @@ struct EarthBox {
 [[nodiscard]] double mercator_latitude_deg(double y_m) noexcept;
 [[nodiscard]] double mercator_y_m(double latitude_deg) noexcept;
 
+// The way in which a pixel shows its cell.
+enum class PlaneLook {
+    overlay,  // in the color of overlay_color()
+    echo,     // the same, but a cell that was not seen is transparent
+    unseen,   // black if the cell was not seen, or if there is no cell; else transparent
+};
+// Returns the color of pixels outside the grid.
+[[nodiscard]] Rgba8 color_outside(PlaneLook look);
+
 // A product to draw. The referenced objects must outlive the PlaneMap.
 struct PlaneMap {
     const grid::GridSpec& spec;
@@ -57,6 +66,7 @@ struct PlaneMap {
     int halvings = 0;
     const ColorTable& table;
     bool smooth = false;  // values change smoothly from cell to cell (smooth_field.h)
+    PlaneLook look = PlaneLook::overlay;
 };
 
 // Returns false if no pixel of the window can lie on the grid.

@@ -14,6 +14,7 @@
 #include "web/doors/pictures/frames.h"
 #include "web/doors/pictures/loops.h"
 #include "web/doors/pictures/tiles.h"
+#include "web/doors/rainviewer/rainviewer.h"
 #include "web/doors/raw/polling.h"
 #include "web/doors/raw/volumes.h"
 #include "web/doors/s3/s3.h"
@@ -46,6 +47,10 @@ void add_pictures(Doors& doors, const Sources& sources) {
     const auto wms = std::make_shared<WmsDoor>(maps);
     wms->set_workers(map_workers);
     doors.add("/wms", wms);
+    const auto rainviewer = std::make_shared<RainViewerDoor>(maps);
+    rainviewer->set_workers(map_workers);
+    for (const char* prefix : {"/public", "/v2", "/rainviewer"})
+        doors.add(prefix, rainviewer);
     const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
     const auto catalog = std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog);
     const auto frames =

@@ -113,7 +113,7 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
     const grid::GridSpec& spec = grid.file.description().spec;
     const render::EarthBox box = box_of(grid.domain, spec);
     if (!render::meets(window, box))
-        return render::Image(window.width, window.height, {0, 0, 0, 0});
+        return render::Image(window.width, window.height, render::color_outside(layer.style.look));
     const render::Scene& scene = layer.style.scene;
     const auto map = maps_.find_or_make(grid, scene, options_.threads);
     if (!map) return pass_on(map);
@@ -123,7 +123,8 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                   .field = (*map)->levels[static_cast<std::size_t>(halvings)],
                                   .halvings = halvings,
                                   .table = render::colors_of(scene),
-                                  .smooth = render::is_smoothed(scene)},
+                                  .smooth = render::is_smoothed(scene),
+                                  .look = layer.style.look},
                                  window);
 }
 

@@ -87,7 +87,7 @@ Result<MapStyle> map_style(const MapProduct& layer, const Fields& query,
     if (!scene) return pass_on(scene);
     if (Status fits = render::check_stored_derivation(options, layer.product); !fits)
         return pass_on(fits);
-    return MapStyle{layer, std::move(*scene), fmt::format("{}\n{}", layer.name(), read->key)};
+    return MapStyle{layer, std::move(*scene), fmt::format("{}\n{}", layer.name(), read->key), {}};
 }
 
 }  // namespace stormcellar::web

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/still/plane_picture.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/volume.h"
 #include "stormcellar/render/product.h"
@@ -39,6 +40,7 @@ struct MapStyle {
     MapProduct layer;
     render::Scene scene;
     std::string key;  // the whole style as one text, for keys of kept answers
+    render::PlaneLook look = render::PlaneLook::overlay;
 };
 
 // Returns true for the options that a layer takes as parameters: colors, smooth, height-km,

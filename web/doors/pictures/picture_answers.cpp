@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "web/data/pictures/map_pictures.h"
 
 namespace stormcellar::web {
 namespace {
@@ -57,6 +56,23 @@ std::optional<Answer> unchanged_answer(const Request& request, const std::string
     entity.max_age = max_age;
     Answer answer = answer_with(request, std::move(entity));
     return answer.status == 304 ? std::optional(std::move(answer)) : std::nullopt;
+}
+
+std::optional<Answer> kept_map_answer(const Request& request, MapPictures& pictures,
+                                      const MapPicture& picture,
+                                      std::optional<std::chrono::seconds> max_age) {
+    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return unchanged;
+    const auto kept = pictures.find(picture);
+    if (!kept) return std::nullopt;
+    return picture_answer(request, *kept, max_age);
+}
+
+Answer map_answer(const Request& request, MapPictures& pictures, const MapPicture& picture,
+                  std::optional<std::chrono::seconds> max_age) {
+    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return *unchanged;
+    const auto drawn = pictures.find_or_draw(picture);
+    if (!drawn) return picture_error(drawn.error());
+    return picture_answer(request, *drawn, max_age);
 }
 
 std::optional<std::chrono::seconds> max_age_of(std::string_view time, const OpenGrid& grid) {

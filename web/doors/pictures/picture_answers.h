@@ -12,6 +12,7 @@
 #include "stormcellar/base/result.h"
 #include "web/data/grids/grids.h"
 #include "web/data/grids/kept_answers.h"
+#include "web/data/pictures/map_pictures.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -39,6 +40,16 @@ using Found = tl::expected<Value, Answer>;
 [[nodiscard]] std::optional<Answer> unchanged_answer(const Request& request,
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
+
+// Returns 304 or the picture, if it is kept; else none.
+[[nodiscard]] std::optional<Answer> kept_map_answer(const Request& request, MapPictures& pictures,
+                                                    const MapPicture& picture,
+                                                    std::optional<std::chrono::seconds> max_age);
+// Returns 304 or the picture, drawn if it is not kept, or the answer that says why it cannot be
+// drawn.
+[[nodiscard]] Answer map_answer(const Request& request, MapPictures& pictures,
+                                const MapPicture& picture,
+                                std::optional<std::chrono::seconds> max_age);
 
 // Clients may reuse an answer that depends only on a grid for this time, without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};

@@ -17,7 +17,6 @@ namespace {
 
 using TileJson = nlohmann::ordered_json;
 
-constexpr double most_latitude_deg = 85.0511;  // edge of Web Mercator's square
 constexpr std::size_t segments_of_a_tile = 7;  // tiles, domain, layer, time, z, x, y.png
 
 std::optional<int> whole_below(std::string_view text, int end) {
@@ -135,12 +134,9 @@ std::optional<Answer> TilesDoor::answer_at_once(const Request& request) {
     if (!time) return std::nullopt;
     const auto grid = grids.find_if_open(path[1], asked->style.layer.moment, *time);
     if (!grid) return std::nullopt;
-    const MapPicture picture{{{grid, asked->style}}, window_of(asked->place), {}};
-    const auto max_age = max_age_of(path[3], *grid);
-    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return unchanged;
-    const auto kept = pictures_->find(picture);
-    if (!kept) return std::nullopt;
-    return picture_answer(request, *kept, max_age);
+    return kept_map_answer(request, *pictures_,
+                           {{{grid, asked->style}}, window_of(asked->place), {}},
+                           max_age_of(path[3], *grid));
 }
 
 Answer TilesDoor::answer(const Request& request) {
@@ -199,12 +195,9 @@ Answer TilesDoor::tile(const Request& request, const std::vector<std::string_vie
     if (!asked) return picture_error(asked.error());
     const auto grid = grid_named(pictures_->grids(), path[1], asked->style.layer.moment, path[3]);
     if (!grid) return grid.error();
-    const MapPicture picture{{{*grid, std::move(asked->style)}}, window_of(asked->place), {}};
-    const auto max_age = max_age_of(path[3], **grid);
-    if (auto unchanged = unchanged_answer(request, picture.etag(), max_age)) return *unchanged;
-    const auto drawn = pictures_->find_or_draw(picture);
-    if (!drawn) return picture_error(drawn.error());
-    return picture_answer(request, *drawn, max_age);
+    return map_answer(request, *pictures_,
+                      {{{*grid, std::move(asked->style)}}, window_of(asked->place), {}},
+                      max_age_of(path[3], **grid));
 }
 
 }  // namespace stormcellar::web

@@ -26,6 +26,7 @@ struct TilePlace {
     int side = 256;  // pixels
 };
 inline constexpr int deepest_zoom = 22;
+inline constexpr double most_latitude_deg = 85.0511;  // edge of Web Mercator's square
 // Reads the parts of an address, such as "5", "7" and "12.png" or "12@2x.png". Returns none if
 // there is no such tile.
 [[nodiscard]] std::optional<TilePlace> tile_place_of(std::string_view zoom, std::string_view column,
