@@ -44,6 +44,8 @@ TEST_F(RainViewer, ListsTheFrames) {
     const std::string host = all["host"];
     EXPECT_EQ(maps("/rainviewer/KTLX")["host"], host + "/rainviewer/KTLX");
     EXPECT_EQ(get("/rainviewer/KTLX/v2/radar/925775781/256/8/58/100/6/0_0.png").status, 200U);
+    for (const char* path : {"/public/maps.json", "/api/maps.json"})
+        EXPECT_EQ(body_of(get(path)), "[925775781]\n");
     EXPECT_TRUE(maps("/rainviewer/KXXX")["radar"]["past"].empty());
 }
 
@@ -75,6 +77,9 @@ TEST_F(RainViewer, TilesShowTheTableOfTheirScheme) {
     EXPECT_GT(strong, 100);
     EXPECT_EQ(wrong, 0) << "bounds of the classes are whole numbers, so rounding down keeps them";
     EXPECT_EQ(tile("/512/8/58/100/2/1_1.png").width, 512);
+    const Answer webp = get("/v2/radar/925775781/256/8/58/100/2/0_0.webp");
+    EXPECT_EQ(header_of(webp, "Content-Type"), "image/webp");
+    EXPECT_EQ(body_of(webp).substr(8, 4), "WEBP");
     EXPECT_NE(tile("/256/8/58/100/2/1_0.png").rgba, tile("/256/8/58/100/2/0_0.png").rgba);
     EXPECT_EQ(tile("/256/8/58/100/2/0_1.png").rgba, tile("/256/8/58/100/2/0_0.png").rgba);
 }
@@ -129,7 +134,9 @@ TEST_F(RainViewer, CoverageIsBlackWhereNoBeamLooked) {
 TEST_F(RainViewer, RefusesWhatIsNotThere) {
     for (const char* path :
          {"/public/nothing.json", "/v2/radar", "/v2/radar/925775781/256/8/58/100/9/0_0.png",
-          "/v2/radar/925775781/256/8/58/100/2/2_0.png", "/v2/radar/1/256/8/58/100/2/0_0.png",
+          "/v2/radar/925775781/256/8/58/100/2/2_0.png",
+          "/v2/radar/925775781/256/8/58/100/2/0_0.gif",
+          "/v2/other/925775781/256/8/58/100/2/0_0.png", "/v2/radar/1/256/8/58/100/2/0_0.png",
           "/v2/radar/925775781/300/8/58/100/2/0_0.png", "/v2/radar/x/256/8/58/100/2/0_0.png",
           "/v2/radar/-1/256/8/58/100/2/0_0.png", "/v2/radar/925775781/256/8/258/100/2/0_0.png",
           "/v2/radar/99999999999999/256/8/58/100/2/0_0.png", "/rainviewer/KTLX",

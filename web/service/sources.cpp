@@ -49,7 +49,7 @@ void add_pictures(Doors& doors, const Sources& sources) {
     doors.add("/wms", wms);
     const auto rainviewer = std::make_shared<RainViewerDoor>(maps);
     rainviewer->set_workers(map_workers);
-    for (const char* prefix : {"/public", "/v2", "/rainviewer"})
+    for (const char* prefix : {"/public", "/api/maps.json", "/v2", "/rainviewer"})
         doors.add(prefix, rainviewer);
     const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
     const auto catalog = std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog);

@@ -64,7 +64,7 @@ std::string MapPicture::key() const {
                     static_cast<int>(window.plane), window.west, window.south, window.east,
                     window.north, window.width, window.height);
     if (ground) key += fmt::format(" {:02x}", fmt::join(*ground, ""));
-    if (is_jpeg) key += " jpeg";
+    if (ending != ".png") key += fmt::format(" {}", ending);
     for (const PictureLayer& layer : layers)
         key += fmt::format("\n{}/{}", layer.grid->id, layer.style.key);
     return key;
@@ -100,11 +100,11 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
             lay_over(*layer, image);
         }
     }
-    const auto bytes = picture.is_jpeg ? render::still_format_of(".jpg")->encode_picture(image, {})
-                                       : render::encode_png_of_few_colors(image);
+    const render::StillFormat& format = *render::still_format_of(picture.ending);
+    const auto bytes = picture.ending == ".png" ? render::encode_png_of_few_colors(image)
+                                                : format.encode_picture(image, {});
     if (!bytes) return pass_on(bytes);
-    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(),
-                picture.is_jpeg ? "image/jpeg" : "image/png"};
+    return Kept{text_of(text_of_bytes(*bytes)), picture.etag(), std::string(format.media_type)};
 }
 
 Result<render::Image> MapPictures::drawn(const PictureLayer& layer,

@@ -1,5 +1,5 @@
 // web/data/pictures/map_pictures.h -- draws 2D products on rectangles of a map's plane, for tiles
-// and WMS, as PNG or JPEG. Keeps the pictures in memory.
+// and WMS, as PNG, WebP or JPEG. Keeps the pictures in memory.
 //
 // A picture depends only on the grid's bytes, the options and the rectangle. Its ETag is made from
 // these, so the ETag is known before the picture is drawn.
@@ -49,7 +49,8 @@ struct MapPicture {
     render::PlaneWindow window;
     // The color under the layers; none: transparent.
     std::optional<render::Rgba8> ground;
-    bool is_jpeg = false;  // JPEG, which needs a ground; else PNG
+    // The format: ".png", ".webp" (lossless), or ".jpg", which needs a ground.
+    std::string_view ending = ".png";
 
     [[nodiscard]] std::string key() const;
     [[nodiscard]] std::string etag() const;  // with its quotes

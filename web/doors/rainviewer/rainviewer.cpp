@@ -1,6 +1,7 @@
 #include "web/doors/rainviewer/rainviewer.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -31,6 +32,10 @@ std::optional<Number> number_in(std::string_view text) {
     return number;
 }
 
+std::int64_t seconds_since_1970(UtcTime time) {
+    return std::chrono::floor<std::chrono::seconds>(time).time_since_epoch().count();
+}
+
 // Returns the table of COLOR 0: the gray level is the reflectivity in dBZ, rounded down, plus 32.
 render::ColorTable gray_levels() {
     render::ColorTable table;
@@ -46,17 +51,15 @@ render::ColorTable gray_levels() {
     return table;
 }
 
-// Reads COLOR and OPTIONS.png.
-Result<MapStyle> style_of(std::string_view color, std::string_view file) {
+// Reads COLOR and OPTIONS, which is SMOOTH_SNOW.
+Result<MapStyle> style_of(std::string_view color, std::string_view options) {
     const auto scheme = number_in<int>(color);
     if (!scheme || *scheme < 0 || *scheme > most_color)
         return fail(ErrorCode::not_found, "a color scheme is a number from 0 to {}", most_color);
-    const bool is_options = file.size() == 7 && file[1] == '_' && file.ends_with(".png") &&
-                            (file[0] == '0' || file[0] == '1') &&
-                            (file[2] == '0' || file[2] == '1');
-    if (!is_options)
-        return fail(ErrorCode::not_found, "the options are SMOOTH_SNOW.png, each 0 or 1");
-    const bool is_smooth = file[0] == '1' && *scheme != 0;
+    constexpr std::array<std::string_view, 4> known{"0_0", "0_1", "1_0", "1_1"};
+    if (std::ranges::find(known, options) == known.end())
+        return fail(ErrorCode::not_found, "the options are SMOOTH_SNOW, each 0 or 1");
+    const bool is_smooth = options[0] == '1' && *scheme != 0;
     auto style = map_style({render::Product::composite, reflectivity},
                            {{"colors", *scheme == color_of_classes ? "nws" : "smooth"},
                             {"smooth", is_smooth ? "cubic" : "none"}},
@@ -110,19 +113,31 @@ Result<render::PlaneWindow> window_named(std::string_view size, std::string_view
 struct AskedPicture {
     MapStyle style;
     render::PlaneWindow window;
+    std::string_view ending;
+
+    [[nodiscard]] MapPicture of(std::shared_ptr<const OpenGrid> grid) const {
+        return {{{std::move(grid), style}}, window, {}, ending};
+    }
 };
 // Reads "v2/radar/TIME/SIZE/z/x/y/COLOR/OPTIONS.png" or "v2/coverage/0/SIZE/z/x/y/0/0_0.png".
 Result<AskedPicture> picture_named(const std::vector<std::string_view>& path) {
-    if (path.size() != 9 || path[0] != "v2")
+    const bool is_tile =
+        path.size() == 9 && path[0] == "v2" && (path[1] == "radar" || path[1] == "coverage");
+    if (!is_tile)
         return fail(ErrorCode::not_found,
-                    "there are /public/weather-maps.json, "
+                    "there are /public/weather-maps.json, /public/maps.json, "
                     "/v2/radar/TIME/SIZE/z/x/y/COLOR/SMOOTH_SNOW.png and "
                     "/v2/coverage/0/SIZE/z/x/y/0/0_0.png here");
+    const std::size_t dot = std::min(path[8].find('.'), path[8].size());
+    const std::string_view ending = path[8].substr(dot);
+    if (ending != ".png" && ending != ".webp")
+        return fail(ErrorCode::not_found, "a tile ends with .png or .webp");
     const auto window = window_named(path[3], path[4], path[5], path[6]);
     if (!window) return pass_on(window);
-    auto style = path[1] == "coverage" ? style_of_coverage() : style_of(path[7], path[8]);
+    auto style =
+        path[1] == "coverage" ? style_of_coverage() : style_of(path[7], path[8].substr(0, dot));
     if (!style) return pass_on(style);
-    return AskedPicture{std::move(*style), *window};
+    return AskedPicture{std::move(*style), *window, ending == ".png" ? ".png" : ".webp"};
 }
 
 }  // namespace
@@ -165,18 +180,26 @@ RainViewerDoor::Asked RainViewerDoor::asked(const Request& request) const {
     return asked;
 }
 
+std::vector<std::int64_t> RainViewerDoor::frames_of(const Asked& asked) const {
+    std::vector<std::int64_t> seconds;
+    for (const UtcTime time : frame_times(pictures_->grids().times(asked.domain, reflectivity)))
+        seconds.push_back(seconds_since_1970(time));
+    return seconds;
+}
+
+Answer RainViewerDoor::legacy_maps(const Request& request, const Asked& asked) const {
+    return text_answer_to(request, "application/json",
+                          nlohmann::json(frames_of(asked)).dump() + "\n");
+}
+
 Answer RainViewerDoor::weather_maps(const Request& request, const Asked& asked) const {
     nlohmann::ordered_json past = nlohmann::ordered_json::array();
-    for (const UtcTime time : frame_times(pictures_->grids().times(asked.domain, reflectivity))) {
-        const auto seconds = std::chrono::floor<std::chrono::seconds>(time).time_since_epoch();
-        past.push_back(
-            {{"time", seconds.count()}, {"path", fmt::format("/v2/radar/{}", seconds.count())}});
-    }
-    const auto now = std::chrono::floor<std::chrono::seconds>(now_utc()).time_since_epoch();
+    for (const std::int64_t time : frames_of(asked))
+        past.push_back({{"time", time}, {"path", fmt::format("/v2/radar/{}", time)}});
     const auto none = nlohmann::ordered_json::array();
     const nlohmann::ordered_json maps = {
         {"version", "2.0"},
-        {"generated", now.count()},
+        {"generated", seconds_since_1970(now_utc())},
         {"host", request.base + asked.prefix},
         {"radar", {{"past", std::move(past)}, {"nowcast", none}}},
         {"satellite", {{"infrared", none}}},
@@ -189,10 +212,7 @@ Result<UtcTime> RainViewerDoor::time_of(const Asked& asked) const {
     if (asked.path[1] == "coverage")
         return time_of_grid(grids, asked.domain, reflectivity, "latest");
     const auto seconds = number_in<std::int64_t>(asked.path[2]);
-    const std::int64_t last =
-        std::chrono::floor<std::chrono::seconds>(cache::last_possible_time).time_since_epoch() /
-        std::chrono::seconds{1};
-    if (!seconds || *seconds < 0 || *seconds > last)
+    if (!seconds || *seconds < 0 || *seconds > seconds_since_1970(cache::last_possible_time))
         return fail(ErrorCode::not_found, "a time is a number of seconds since 1970");
     const UtcTime time{std::chrono::seconds{*seconds}};
     // The grids' times have milliseconds.
@@ -203,32 +223,29 @@ Result<UtcTime> RainViewerDoor::time_of(const Asked& asked) const {
 
 std::optional<Answer> RainViewerDoor::answer_at_once(const Request& request) {
     const Asked wanted = asked(request);
-    auto picture = picture_named(wanted.path);
+    const auto picture = picture_named(wanted.path);
     if (!picture) return std::nullopt;
     const auto time = time_of(wanted);
     if (!time) return std::nullopt;
     const auto grid = pictures_->grids().find_if_open(wanted.domain, reflectivity, *time);
     if (!grid) return std::nullopt;
-    const auto max_age = max_age_of("", *grid);
-    return kept_map_answer(request, *pictures_,
-                           {{{grid, std::move(picture->style)}}, picture->window, {}}, max_age);
+    return kept_map_answer(request, *pictures_, picture->of(grid), max_age_of("", *grid));
 }
 
 Answer RainViewerDoor::answer(const Request& request) {
     const Asked wanted = asked(request);
-    if (wanted.path.size() == 2 && wanted.path[0] == "public" &&
-        wanted.path[1] == "weather-maps.json")
-        return weather_maps(request, wanted);
-    auto picture = picture_named(wanted.path);
+    if (wanted.path.size() == 2 && wanted.path[0] != "v2") {
+        if (wanted.path[1] == "weather-maps.json") return weather_maps(request, wanted);
+        if (wanted.path[1] == "maps.json") return legacy_maps(request, wanted);
+    }
+    const auto picture = picture_named(wanted.path);
     if (!picture) return picture_error(picture.error());
     const auto time = time_of(wanted);
     if (!time) return picture_error(time.error());
     const auto grid =
         grid_named(pictures_->grids(), wanted.domain, reflectivity, format_utc(*time));
     if (!grid) return grid.error();
-    return map_answer(request, *pictures_,
-                      {{{*grid, std::move(picture->style)}}, picture->window, {}},
-                      max_age_of("", **grid));
+    return map_answer(request, *pictures_, picture->of(*grid), max_age_of("", **grid));
 }
 
 }  // namespace stormcellar::web

@@ -2,6 +2,7 @@
 // RainViewer, so that its clients work here when only their host is changed (docs/web/pictures.md).
 //
 //   /public/weather-maps.json                             the frames of the last two hours
+//   /public/maps.json, /api/maps.json                     the times of the same frames alone
 //   /v2/radar/TIME/SIZE/{z}/{x}/{y}/COLOR/OPTIONS.png     a tile of a frame
 //   /v2/coverage/0/SIZE/{z}/{x}/{y}/0/0_0.png             black where no beam looked
 //   /rainviewer/DOMAIN/public/..., /rainviewer/DOMAIN/v2/...   the same for one domain
@@ -10,7 +11,7 @@
 // longitude with decimal points in place of {x} and {y} give a picture of a tile's size around that
 // place. COLOR 0 has gray levels: the reflectivity in dBZ, rounded down, plus 32. 6 has the classes
 // of the Weather Service, and 1 to 5, 7 and 8 have our smooth table. OPTIONS are SMOOTH_SNOW, each
-// 0 or 1; snow has no colors of its own.
+// 0 or 1; snow has no colors of its own. Tiles end with .png or .webp.
 //
 // Without a name, the domain is the first mosaic by name, else the first station. A frame is the
 // last grid of ten minutes by the clock, so a frame keeps its address. There are no satellite
@@ -20,6 +21,7 @@
 // Threads   Many threads may use it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,6 +56,9 @@ class RainViewerDoor final : public Door {
     };
     [[nodiscard]] Asked asked(const Request& request) const;
     [[nodiscard]] std::string usual_domain() const;
+    // Returns the times of the frames in seconds since 1970.
+    [[nodiscard]] std::vector<std::int64_t> frames_of(const Asked& asked) const;
+    [[nodiscard]] Answer legacy_maps(const Request& request, const Asked& asked) const;
     [[nodiscard]] Answer weather_maps(const Request& request, const Asked& asked) const;
     // Returns the time of the grid that a tile shows.
     [[nodiscard]] Result<UtcTime> time_of(const Asked& asked) const;

@@ -146,7 +146,7 @@ WmsDoor::FindGrid WmsDoor::opener() {
 
 WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
                                                       const FindGrid& find) const {
-    TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg}, {}, {}};
+    TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg ? ".jpg" : ".png"}, {}, {}};
     if (map.time) timed.max_age = answer_holds_for;
     for (const WmsLayer& layer : map.layers) {
         auto shown = shown_time(pictures_->grids(), layer, map.time);
