@@ -1,7 +1,7 @@
 // bunzip/block_decoder.h -- decodes one block: reads its tables and symbols, and reverses the sort
 // of its rows.
 //
-// Memory    10.2 MB at most (docs/bunzip.md).
+// Memory    10.2 MB at most.
 // Threads   One thread at a time.
 #pragma once
 

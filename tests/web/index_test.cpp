@@ -62,13 +62,14 @@ TEST(IndexPage, LinksKeepThePathOfTheProxyAndExamplesTheWholeAddress) {
 
 TEST(IndexPage, OffersOnlyWhatIsServed) {
     const auto all = std::to_array<std::string>({"/api/v1", "/api/v1/events", "/metrics", "/nexrd2",
-                                                 "/placefiles", "/s3", "/thredds", "/tiles",
+                                                 "/placefiles", "/s3", "/thredds", "/tiles", "/v2",
                                                  "/view", "/volumes", "/wms", "/zarr"});
     for (const std::string& door : all) {
         std::vector<std::string> others(all.begin(), all.end());
         std::erase(others, door);
+        const std::string shown = door == "/v2" ? "/public/weather-maps.json" : door;
         const auto address = door == "/view" ? HasSubstr("/storms/view/\"")
-                                             : HasSubstr("://radar.example.org/storms" + door);
+                                             : HasSubstr("://radar.example.org/storms" + shown);
         EXPECT_THAT(page_of({door}), address);
         if (door == "/api/v1") continue;  // the address of the events also begins with "/api/v1"
         EXPECT_THAT(page_of(others), Not(address));
