@@ -140,6 +140,7 @@ const std::vector<Section>& all_sections() {
           {"serve", "['volumes', 'grids']", "['grids']"},
           {"bucket", "'unidata-nexrad-level2'", "'my-bucket'"},
           {"cors", "'none'", "'*'"},
+          {"embed_in", "[]", "['https://news.example.org']"},
           {"silent_seconds", "1200", "600"}}},
         {"[web.limits]",
          at_reload,

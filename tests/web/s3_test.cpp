@@ -50,6 +50,17 @@ class S3 : public DoorTest<S3Door> {
 
 using Texts = std::vector<std::string>;
 
+TEST_F(S3, HasTheEarlierNameOfThePublicBucket) {
+    const std::string earlier = "/s3/noaa-nexrad-level2";
+    const Answer list = get(earlier + "?list-type=2");
+    EXPECT_EQ(list.status, 200U);
+    EXPECT_NE(body_of(list).find("<Name>noaa-nexrad-level2</Name>"), std::string::npos);
+    EXPECT_NE(body_of(list).find(middle_key), std::string::npos);
+    EXPECT_EQ(body_of(get(earlier + "/" + middle_key)), body_of(get(bucket + ("/" + middle_key))));
+    S3Door other(served_volumes().files(), "my-bucket");
+    EXPECT_EQ(asked(other, earlier + "?list-type=2").status, 404U);
+}
+
 TEST_F(S3, ListsEveryVolumeInTheOrderOfKeys) {
     for (const std::string query : {"?list-type=2", "/?list-type=2", "", "/"}) {
         const auto all = keys(query);

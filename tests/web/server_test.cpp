@@ -64,9 +64,8 @@ TEST_F(WebServer, AnswersWithWhatEveryAnswerHas) {
     const std::string answer = get("/a/b?c=d");
     EXPECT_EQ(status_in(answer), 200);
     EXPECT_EQ(body_in(answer), "at /a/b");
-    for (const char* header :
-         {"X-Content-Type-Options: nosniff", "Content-Security-Policy: default-src 'none';",
-          "Cross-Origin-Resource-Policy: same-origin", "Content-Length: 7"})
+    for (const char* header : {"X-Content-Type-Options: nosniff",
+                               "Cross-Origin-Resource-Policy: same-origin", "Content-Length: 7"})
         EXPECT_NE(answer.find(header), std::string::npos) << header;
     EXPECT_EQ(answer.find("Access-Control-Allow-Origin"), std::string::npos);
 }
@@ -100,6 +99,7 @@ TEST_F(WebServer, ARefusalOfItsOwnSaysSo) {
 // 2026-11-28: a tile of 600 bytes carried 593 bytes of headers, most of them for pages.
 TEST_F(WebServer, DataHasNoHeadersOfPages) {
     add("/tile", [](const Request&) { return text_answer(200, "image/png", "a tile"); });
+    add("/sentence", [](const Request&) { return text_answer(404, "text/plain", "nothing"); });
     add("/page", [](const Request&) { return text_answer(200, "text/html", "a page"); });
     add("/drawing", [](const Request&) { return text_answer(200, "image/svg+xml", "may run"); });
     start();
@@ -108,7 +108,9 @@ TEST_F(WebServer, DataHasNoHeadersOfPages) {
     for (const char* header :
          {"X-Content-Type-Options: nosniff", "Cross-Origin-Resource-Policy: same-origin"})
         EXPECT_NE(tile.find(header), std::string::npos) << header;
+    EXPECT_EQ(get("/sentence").find("Content-Security-Policy"), std::string::npos);
     for (const char* path : {"/page", "/drawing"}) {
+        EXPECT_NE(get(path).find("frame-ancestors 'none'"), std::string::npos);
         for (const char* header :
              {"Content-Security-Policy", "Cross-Origin-Opener-Policy: same-origin",
               "Cross-Origin-Embedder-Policy: require-corp", "Referrer-Policy: no-referrer"})
@@ -116,8 +118,22 @@ TEST_F(WebServer, DataHasNoHeadersOfPages) {
     }
 }
 
+TEST_F(WebServer, LetsNamedOriginsEmbedItsPagesAlone) {
+    options_.origins.embed_in = {"https://a.example", "http://b.example:8080"};
+    add("/page", [](const Request&) { return text_answer(200, "text/html", "a page"); });
+    add("/tile", [](const Request&) { return text_answer(200, "image/png", "a tile"); });
+    start();
+    const std::string page = get("/page");
+    EXPECT_NE(page.find("frame-ancestors https://a.example http://b.example:8080; form-action"),
+              std::string::npos);
+    EXPECT_NE(page.find("Cross-Origin-Resource-Policy: cross-origin"), std::string::npos)
+        << "else a page with an embedder policy could not show ours";
+    EXPECT_EQ(page.find("Access-Control-Allow-Origin"), std::string::npos);
+    EXPECT_NE(get("/tile").find("Cross-Origin-Resource-Policy: same-origin"), std::string::npos);
+}
+
 TEST_F(WebServer, LetsOtherPagesReadIfThatWasChosen) {
-    options_.any_origin = true;
+    options_.origins.any_may_read = true;
     start();
     EXPECT_NE(get("/").find("Access-Control-Allow-Origin: *"), std::string::npos);
     RawClient client(port_);

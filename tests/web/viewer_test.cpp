@@ -6,6 +6,7 @@
 
 #include "tests/web/asked.h"
 #include "web/doors/viewer/viewer_files.h"
+#include "web/http/common_headers.h"
 
 namespace stormcellar::web {
 namespace {
@@ -45,7 +46,8 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
 TEST_F(Viewer, ItsPolicyLetsItAskThisServerAlone) {
     for (const char* target :
          {"/view/", "/view/viewer.js", "/view/editor.js", "/view/layers.js", "/view/worker.js"}) {
-        const Answer answer = get(target);
+        Answer answer = get(target);
+        add_common_headers(answer, request_for(target), {});
         const std::string policy = header_of(answer, "Content-Security-Policy");
         EXPECT_TRUE(policy.starts_with("default-src 'none'; script-src 'self'; ")) << target;
         EXPECT_NE(policy.find("connect-src 'self'"), std::string::npos);

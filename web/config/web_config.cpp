@@ -134,6 +134,21 @@ void read_proxies(TomlTable& web, WebConfig& config) {
     }
 }
 
+void read_embedding(TomlTable& web, WebConfig& config) {
+    const auto origins = read_list(web, "embed_in");
+    if (!origins) return;
+    for (const std::string& origin : *origins) {
+        const auto address = parse_public_address(origin);
+        if (address && address->prefix.empty()) {
+            config.embed_in.push_back(address->text());
+        } else {
+            web.complain("embed_in", fmt::format("\"{}\" is not an origin, such as "
+                                                 "https://example.org",
+                                                 printable(origin)));
+        }
+    }
+}
+
 void read_parts(TomlTable& web, WebConfig& config) {
     const auto names = web.texts("serve");
     if (!names) return;
@@ -167,6 +182,7 @@ void read_addresses(TomlTable& web, WebConfig& config) {
             web.complain("cors", fmt::format("\"{}\" must be none or *", printable(*cors)));
         config.cors = *cors == "*";
     }
+    read_embedding(web, config);
     if (const auto bucket = web.text("bucket")) {
         if (is_bucket_name(*bucket)) {
             config.bucket = *bucket;

@@ -122,7 +122,8 @@ struct WebConfig {
     std::vector<std::string> trusted_proxies;  // numeric addresses
     std::vector<WebPart> serve = all_parts();  // each once, in the order of WebPart
     std::string bucket = "unidata-nexrad-level2";
-    bool cors = false;  // pages of other servers may read answers
+    bool cors = false;                  // pages of other servers may read answers
+    std::vector<std::string> embed_in;  // origins whose pages may show ours in a frame
     // A station counts as silent if nothing came from it for this long.
     std::chrono::seconds silent{1200};
     ThreddsConfig thredds = usual_thredds();

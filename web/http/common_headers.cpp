@@ -3,49 +3,50 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace stormcellar::web {
 namespace {
 
-// Returns true if a browser treats the answer as data and not as a page or a script. Returns false
-// for unknown types.
-bool is_data(const Answer& answer) {
+// Returns true if a browser may run what is in the answer: pages, scripts, and XML, which may hold
+// a page. Browsers do not guess at other types, because of nosniff.
+bool may_run(const Answer& answer) {
     const auto type = std::ranges::find(answer.headers, "Content-Type", &Fields::value_type::first);
     if (type == answer.headers.end()) return false;
-    constexpr std::array<std::string_view, 7> types{
-        "image/png",           "image/jpeg",       "image/webp",
-        "image/tiff",          "application/json", "application/octet-stream",
-        "application/x-netcdf"};
-    return std::ranges::any_of(types,
-                               [&](std::string_view one) { return type->second.starts_with(one); });
+    return std::ranges::any_of(
+        std::to_array<std::string_view>({"html", "javascript", "xml"}),
+        [&](std::string_view part) { return type->second.find(part) != std::string::npos; });
 }
 
-// Returns headers that forbid browsers all that the server's pages do not need.
-const Fields& headers_of_pages() {
-    static const Fields headers = {
-        {"Content-Security-Policy",
-         "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src "
-         "'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
-         "frame-ancestors 'none'; form-action 'none'"},
-        {"Cross-Origin-Opener-Policy", "same-origin"},
-        {"Cross-Origin-Embedder-Policy", "require-corp"},
-        {"Referrer-Policy", "no-referrer"},
-    };
-    return headers;
+// Adds headers that forbid browsers all that the server's pages do not need.
+void add_headers_of_pages(Answer& answer, const OriginRules& origins) {
+    answer.with(
+        "Content-Security-Policy",
+        fmt::format("default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
+                    "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri "
+                    "'none'; frame-ancestors {}; form-action 'none'",
+                    origins.embed_in.empty()
+                        ? "'none'"
+                        : fmt::format("{}", fmt::join(origins.embed_in, " "))));
+    answer.with("Cross-Origin-Opener-Policy", "same-origin");
+    answer.with("Cross-Origin-Embedder-Policy", "require-corp");
+    answer.with("Referrer-Policy", "no-referrer");
 }
 
 }  // namespace
 
-void add_common_headers(Answer& answer, const Request& request, bool any_origin) {
+void add_common_headers(Answer& answer, const Request& request, const OriginRules& origins) {
     answer.with("X-Content-Type-Options", "nosniff");
     // By this header, the page can tell a refusal of this server from the refusal of a proxy.
     if (answer.status >= 400) answer.with("Stormcellar-Status", std::to_string(answer.status));
-    if (!is_data(answer)) {
-        for (const auto& [name, value] : headers_of_pages())
-            answer.with(name, value);
-    }
-    answer.with("Cross-Origin-Resource-Policy", any_origin ? "cross-origin" : "same-origin");
-    if (any_origin) {
+    const bool is_page = may_run(answer);
+    if (is_page) add_headers_of_pages(answer, origins);
+    const bool is_for_others = origins.any_may_read || (is_page && !origins.embed_in.empty());
+    answer.with("Cross-Origin-Resource-Policy", is_for_others ? "cross-origin" : "same-origin");
+    if (origins.any_may_read) {
         answer.with("Access-Control-Allow-Origin", "*");
         answer.with(
             "Access-Control-Expose-Headers",

@@ -325,7 +325,7 @@ MHD_Result Server::Impl::send(MHD_Connection* connection, Exchange& exchange) {
     if (!exchange.answer) return MHD_NO;
     take_budget(exchange);
     Answer& answer = *exchange.answer;
-    add_common_headers(answer, exchange.request, options.any_origin);
+    add_common_headers(answer, exchange.request, options.origins);
     if (is_stopping) answer.closes = true;
     const bool is_stream = !std::holds_alternative<Pieces>(answer.body);
     const HttpResponse response =

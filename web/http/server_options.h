@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "web/http/common_headers.h"
 #include "web/http/request.h"
 
 namespace stormcellar::web {
@@ -66,7 +67,7 @@ struct ServerOptions {
     std::string prefix;
     // Addresses whose Forwarded and X-Forwarded fields are believed.
     std::vector<std::string> trusted_proxies;
-    bool any_origin = false;  // Access-Control-Allow-Origin: *
+    OriginRules origins;
     ServerLimits limits;
     std::function<void(const Served&)> on_answer;  // any thread calls it; may be empty
 };

@@ -88,7 +88,7 @@ ServerOptions server_options_of(const WebConfig& config) {
     }
     options.names = config.names;
     options.trusted_proxies = config.trusted_proxies;
-    options.any_origin = config.cors;
+    options.origins = {config.cors, config.embed_in};
     if (config.public_address) {
         options.public_address = config.public_address->text();
         options.prefix = config.public_address->prefix;

@@ -13,6 +13,10 @@
 namespace stormcellar::web {
 namespace {
 
+constexpr std::string_view public_bucket = "unidata-nexrad-level2";
+// The name of the public bucket until 2025, which older clients use.
+constexpr std::string_view earlier_public_bucket = "noaa-nexrad-level2";
+
 Answer s3_xml_answer(unsigned status, std::string text) {
     Answer answer = text_answer(status, "application/xml", std::move(text));
     answer.with("Cache-Control", "no-cache");
@@ -93,7 +97,7 @@ std::string s3_tag(const RawVolume& volume) {
 
 std::optional<Answer> S3Door::answer_at_once(const Request& request) {
     const S3Path path = s3_path_of(request.path);
-    if (path.bucket != bucket_ || path.key.empty() || refused_resource(request)) {
+    if (!is_bucket(path.bucket) || path.key.empty() || refused_resource(request)) {
         return std::nullopt;
     }
     const auto key = parse_s3_key(path.key);
@@ -103,10 +107,14 @@ std::optional<Answer> S3Door::answer_at_once(const Request& request) {
     return answer && answer->status < 400 ? std::move(answer) : std::nullopt;
 }
 
+bool S3Door::is_bucket(std::string_view name) const {
+    return name == bucket_ || (bucket_ == public_bucket && name == earlier_public_bucket);
+}
+
 Answer S3Door::answer(const Request& request) {
     const S3Path path = s3_path_of(request.path);
     if (path.bucket.empty()) return buckets_answer();
-    if (path.bucket != bucket_) {
+    if (!is_bucket(path.bucket)) {
         return s3_error(404, "NoSuchBucket", "The specified bucket does not exist.", request);
     }
     if (auto refused = refused_resource(request)) return *std::move(refused);
@@ -147,7 +155,8 @@ Answer S3Door::list_answer(const Request& request) const {
     S3Keys keys(files_);
     const auto listing = list_s3_objects(keys, *options);
     if (!listing) return s3_error(listing.error(), request);
-    return text_answer_to(request, "application/xml", s3_listing_xml(bucket_, *options, *listing));
+    return text_answer_to(request, "application/xml",
+                          s3_listing_xml(s3_path_of(request.path).bucket, *options, *listing));
 }
 
 Answer S3Door::object_answer(const Request& request, std::string_view text) const {

@@ -36,6 +36,8 @@ class S3Door final : public Door {
     Answer answer(const Request& request) override;
 
   private:
+    // Returns true for the bucket's name. The public bucket has its earlier name, too.
+    [[nodiscard]] bool is_bucket(std::string_view name) const;
     [[nodiscard]] Answer buckets_answer() const;
     [[nodiscard]] Answer bucket_answer(const Request& request) const;
     [[nodiscard]] Answer list_answer(const Request& request) const;

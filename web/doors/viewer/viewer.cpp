@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::string_view page_name = "index.html";
 
-// Allows only content of this server: the program of the page, its worker, and pictures that the
-// program makes.
-constexpr std::string_view policy =
-    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; "
-    "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; "
-    "frame-ancestors 'none'; form-action 'none'";
-
 // Returns the file in the coding. Each file is compressed once for each coding.
 std::optional<Text> file_in_coding(const ViewerFile& file, Coding coding) {
     static Mutex mutex;
@@ -45,13 +38,7 @@ Answer file_answer(const Request& request, const ViewerFile& file) {
     entity.varies = true;
     entity.etag = fmt::format("\"{:016x}-{}\"", xxh3_64(std::as_bytes(std::span(file.bytes))),
                               coding_name(coding));
-    Answer answer = answer_with(request, std::move(entity));
-    answer.with("Content-Security-Policy", std::string(policy));
-    answer.with("X-Content-Type-Options", "nosniff");
-    answer.with("Cross-Origin-Opener-Policy", "same-origin");
-    answer.with("Cross-Origin-Embedder-Policy", "require-corp");
-    answer.with("Cross-Origin-Resource-Policy", "same-origin");
-    return answer;
+    return answer_with(request, std::move(entity));
 }
 
 }  // namespace
