@@ -10,6 +10,7 @@
 #include "render/products/smooth_field.h"
 #include "render/still/map_raster.h"
 #include "stormcellar/grid/projection.h"
+#include "stormcellar/grid/site_frame.h"
 
 namespace stormcellar::render {
 namespace {
@@ -106,6 +107,13 @@ class PlaceColors {
 
     // The place must be on the grid.
     [[nodiscard]] Rgba8 at(double x, double y) {
+        if (map_.sweep != nullptr && map_.halvings == 0) {
+            const grid::GridSpec& plane = map_.spec;
+            const grid::GateValue gate = map_.sweep->at(
+                grid::SiteFrame::from_plane((x - 0.5 * (plane.nx - 1)) * plane.spacing_m,
+                                            (y - 0.5 * (plane.ny - 1)) * plane.spacing_m));
+            return color(gate.status, gate.value);
+        }
         if (map_.smooth) {
             const SmoothField::Place place =
                 cells_.at((x + 0.5) * per_column_ - 0.5, (y + 0.5) * per_column_ - 0.5);

@@ -16,6 +16,7 @@
 #include "render/products/flat_field.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/grid/projection.h"
+#include "stormcellar/grid/sweep_lookup.h"
 #include "stormcellar/render/color_table.h"
 #include "stormcellar/render/image.h"
 
@@ -67,6 +68,9 @@ struct PlaneMap {
     const ColorTable& table;
     bool smooth = false;  // values change smoothly from cell to cell (smooth_field.h)
     PlaneLook look = PlaneLook::overlay;
+    // The sweep of the field, whose plane is `spec`. If the field is not halved, each pixel shows
+    // the gate at its center. Null: the field is of a grid.
+    const grid::SweepLookup* sweep = nullptr;
 };
 
 // Returns false if no pixel of the window can lie on the grid.

@@ -38,8 +38,11 @@ void add_pictures(Doors& doors, const Sources& sources) {
     const auto renders = static_cast<unsigned>(limits.renders);
     const auto waiting = static_cast<std::size_t>(limits.waiting);
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_picture_bytes);
-    const auto maps = std::make_shared<MapPictures>(
-        MapPicturesOptions{.grids = sources.grids, .kept = kept, .threads = threads});
+    const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
+    const auto sweeps = std::make_shared<SweepPictures>(
+        std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog), of_frames);
+    const auto maps = std::make_shared<MapPictures>(MapPicturesOptions{
+        .grids = sources.grids, .sweeps = sweeps, .kept = kept, .threads = threads});
     const auto map_workers = std::make_shared<WorkQueue>(renders, waiting * maps_for_a_frame);
     const auto tiles = std::make_shared<TilesDoor>(maps);
     tiles->set_workers(map_workers);
@@ -51,11 +54,8 @@ void add_pictures(Doors& doors, const Sources& sources) {
     rainviewer->set_workers(map_workers);
     for (const char* prefix : {"/public", "/api/maps.json", "/v2", "/rainviewer"})
         doors.add(prefix, rainviewer);
-    const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
-    const auto catalog = std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog);
-    const auto frames =
-        std::make_shared<FramesDoor>(sources.grids, std::make_shared<FramePictures>(of_frames),
-                                     std::make_shared<SweepPictures>(catalog, of_frames));
+    const auto frames = std::make_shared<FramesDoor>(
+        sources.grids, std::make_shared<FramePictures>(of_frames), sweeps);
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
     doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));

@@ -10,7 +10,9 @@
 #include "base/parallel.h"
 #include "render/color/moment_look.h"
 #include "render/options/scene_options.h"
+#include "render/products/sweep_field.h"
 #include "render/still/map_raster.h"
+#include "stormcellar/level2/live_sweep.h"
 #include "stormcellar/render/product.h"
 
 namespace stormcellar::web {
@@ -78,6 +80,15 @@ std::string key_of_map(const OpenGrid& grid, const render::Scene& scene) {
                        scene.freezing_levels.minus_20_c_m);
 }
 
+std::shared_ptr<const FlatMap> map_with_levels(FlatMap map, render::FlatField field,
+                                               const render::Scene& scene, int threads) {
+    field.at_least = {};
+    map.levels.push_back(std::move(field));
+    while (std::max(map.levels.back().width, map.levels.back().height) > smallest_side)
+        map.levels.push_back(halved_field(map.levels.back(), scene, threads));
+    return std::make_shared<const FlatMap>(std::move(map));
+}
+
 Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const render::Scene& scene,
                                                 int threads) {
     const grid::BrickView view = grid.file.view();
@@ -86,13 +97,19 @@ Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const rend
     auto field = render::still_field({view, facts, scene}, threads);
     if (!field) return pass_on(field);
     if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
-    auto map = std::make_shared<FlatMap>();
-    map->spec = grid.file.description().spec;
-    field->at_least = {};
-    map->levels.push_back(std::move(*field));
-    while (std::max(map->levels.back().width, map->levels.back().height) > smallest_side)
-        map->levels.push_back(halved_field(map->levels.back(), scene, threads));
-    return std::shared_ptr<const FlatMap>(std::move(map));
+    return map_with_levels({grid.file.description().spec, {}, {}}, std::move(*field), scene,
+                           threads);
+}
+
+Result<std::shared_ptr<const FlatMap>> made_map(const SweepPicture& picture,
+                                                const SweepPictures& sweeps, int threads) {
+    auto decoded = sweeps.decode(picture);
+    if (!decoded) return pass_on(decoded);
+    auto sweep = std::make_shared<const PlacedSweep>(std::move(decoded->front()));
+    const grid::GridSpec& spec = sweep->description.spec;
+    auto field = render::sweep_in_columns(sweep->sweep, spec, threads);
+    return map_with_levels({spec, sweep, {}}, std::move(field), picture.style.panels.front().scene,
+                           threads);
 }
 
 }  // namespace
@@ -101,6 +118,10 @@ std::uint64_t FlatMap::bytes() const {
     std::uint64_t bytes = sizeof(FlatMap);
     for (const render::FlatField& level : levels)
         bytes += level.values.size() * (sizeof(float) + sizeof(CellStatus));
+    if (sweep) {
+        for (const level2::Sweep& part : sweep->source->volume.sweeps)
+            bytes += level2::bytes_of(part);
+    }
     return bytes;
 }
 
@@ -136,7 +157,17 @@ render::FlatField halved_field(const render::FlatField& field, const render::Sce
 Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& grid,
                                                               const render::Scene& scene,
                                                               int threads) {
-    const std::string key = key_of_map(grid, scene);
+    return find_or_make(key_of_map(grid, scene), [&] { return made_map(grid, scene, threads); });
+}
+
+Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const SweepPicture& picture,
+                                                              const SweepPictures& sweeps,
+                                                              int threads) {
+    return find_or_make(picture.key(), [&] { return made_map(picture, sweeps, threads); });
+}
+
+Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const std::string& key,
+                                                              const Make& make) {
     {
         const MutexLock lock(mutex_);
         while (making_.contains(key))
@@ -157,7 +188,7 @@ Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& gr
         }
     };
     const Ending ending{*this, key};
-    auto map = made_map(grid, scene, threads);
+    auto map = make();
     if (map) {
         const MutexLock lock(mutex_);
         maps_.keep(key, *map, (*map)->bytes());

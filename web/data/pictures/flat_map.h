@@ -1,7 +1,8 @@
-// web/data/pictures/flat_map.h -- a 2D product of a grid, which is made once, with coarser levels
-// for small scales.
+// web/data/pictures/flat_map.h -- a 2D product of a grid, or a sweep, which is made once, with
+// coarser levels for small scales.
 //
-// Level 0 has a cell for each column of the grid. Each further level has half as many columns and
+// Level 0 has a cell for each column of the grid, or of the plane of the sweep, whose columns are
+// as wide as a gate is long. Each further level has half as many columns and
 // rows, until neither is more than 32. A cell of a further level stands for the four cells that it
 // covers (fewer at an edge of odd length):
 //   state   a value if any of the four has one; else range folded if any is; else no echo if any
@@ -18,6 +19,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,12 +31,14 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/scene.h"
 #include "web/data/grids/grids.h"
+#include "web/data/pictures/sweep_pictures.h"
 
 namespace stormcellar::web {
 
 struct FlatMap {
     grid::GridSpec spec;
-    std::vector<render::FlatField> levels;  // at least one
+    std::shared_ptr<const PlacedSweep> sweep;  // whose gates level 0 samples; null: of a grid
+    std::vector<render::FlatField> levels;     // at least one
     [[nodiscard]] std::uint64_t bytes() const;
 };
 
@@ -52,8 +56,16 @@ class FlatMaps {
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
                                                                       const render::Scene& scene,
                                                                       int threads);
+    // Returns the map of the sweep. Errors: those of SweepPictures::decode().
+    [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const SweepPicture& picture,
+                                                                      const SweepPictures& sweeps,
+                                                                      int threads);
 
   private:
+    using Make = std::function<Result<std::shared_ptr<const FlatMap>>()>;
+    [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const std::string& key,
+                                                                      const Make& make);
+
     mutable Mutex mutex_;
     ConditionVariable made_;
     RecentlyUsed<std::string, std::shared_ptr<const FlatMap>> maps_ STORMCELLAR_GUARDED_BY(mutex_);

@@ -66,7 +66,8 @@ std::string MapPicture::key() const {
     if (ground) key += fmt::format(" {:02x}", fmt::join(*ground, ""));
     if (ending != ".png") key += fmt::format(" {}", ending);
     for (const PictureLayer& layer : layers)
-        key += fmt::format("\n{}/{}", layer.grid->id, layer.style.key);
+        key += fmt::format("\n{}/{}", layer.sweep ? layer.sweep->key() : layer.grid->id,
+                           layer.style.key);
     return key;
 }
 
@@ -110,12 +111,19 @@ Result<Kept> MapPictures::draw(const MapPicture& picture) {
 Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                          const render::PlaneWindow& window) {
     const OpenGrid& grid = *layer.grid;
-    const grid::GridSpec& spec = grid.file.description().spec;
+    const render::Scene& scene = layer.style.scene;
+    std::shared_ptr<const FlatMap> sweep;
+    if (layer.sweep) {
+        auto made = maps_.find_or_make(*layer.sweep, *options_.sweeps, options_.threads);
+        if (!made) return pass_on(made);
+        sweep = std::move(*made);
+    }
+    const grid::GridSpec& spec = sweep ? sweep->spec : grid.file.description().spec;
     const render::EarthBox box = box_of(grid.domain, spec);
     if (!render::meets(window, box))
         return render::Image(window.width, window.height, render::color_outside(layer.style.look));
-    const render::Scene& scene = layer.style.scene;
-    const auto map = maps_.find_or_make(grid, scene, options_.threads);
+    const auto map = sweep ? Result<std::shared_ptr<const FlatMap>>(sweep)
+                           : maps_.find_or_make(grid, scene, options_.threads);
     if (!map) return pass_on(map);
     const int halvings = halvings_for(window, spec, (*map)->levels.size());
     return render::draw_on_plane({.spec = spec,
@@ -123,9 +131,16 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
                                   .field = (*map)->levels[static_cast<std::size_t>(halvings)],
                                   .halvings = halvings,
                                   .table = render::colors_of(scene),
-                                  .smooth = render::is_smoothed(scene),
-                                  .look = layer.style.look},
+                                  .smooth = !sweep && render::is_smoothed(scene),
+                                  .look = layer.style.look,
+                                  .sweep = sweep ? &sweep->sweep->sweep : nullptr},
                                  window);
+}
+
+Result<grid::GridSpec> MapPictures::plane_of(const SweepPicture& sweep) {
+    const auto map = maps_.find_or_make(sweep, *options_.sweeps, options_.threads);
+    if (!map) return pass_on(map);
+    return (*map)->spec;
 }
 
 Result<std::optional<MapValue>> MapPictures::value_at(const PictureLayer& layer,

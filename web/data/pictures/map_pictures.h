@@ -31,6 +31,7 @@ namespace stormcellar::web {
 
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
+    std::shared_ptr<SweepPictures> sweeps = {};  // null: no sweeps are drawn
     // Keeps the pictures. Others may share this object.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
     std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
@@ -42,6 +43,7 @@ struct MapPicturesOptions {
 struct PictureLayer {
     std::shared_ptr<const OpenGrid> grid;
     MapStyle style;
+    std::optional<SweepPicture> sweep = {};  // of the grid's raw volume, to show in its place
 };
 
 struct MapPicture {
@@ -84,6 +86,9 @@ class MapPictures {
     // specs.
     [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);
     [[nodiscard]] Grids& grids() { return *options_.grids; }
+    [[nodiscard]] SweepPictures* sweeps() { return options_.sweeps.get(); }
+    // Returns the plane of a sweep. Errors: those of SweepPictures::decode().
+    [[nodiscard]] Result<grid::GridSpec> plane_of(const SweepPicture& sweep);
 
   private:
     [[nodiscard]] Result<Kept> draw(const MapPicture& picture);

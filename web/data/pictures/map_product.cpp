@@ -32,6 +32,15 @@ std::string MapProduct::name() const {
     return fmt::format("{}.{}", facts.name, level2::moment_name(moment));
 }
 
+Result<level2::Moment> moment_in_layer(std::string_view name) {
+    const std::size_t dot = name.find('.');
+    if (dot == name.npos) return level2::Moment::ref;
+    const auto moment = level2::moment_from_name(name.substr(dot + 1));
+    if (moment) return *moment;
+    return fail(ErrorCode::not_found, "there is no moment '{}': it is {}",
+                printable(name.substr(dot + 1, longest_shown)), level2::moment_names(", ", " or "));
+}
+
 Result<MapProduct> map_product_named(std::string_view name) {
     const std::size_t dot = name.find('.');
     const auto product = render::product_from_name(name.substr(0, dot));
@@ -44,12 +53,8 @@ Result<MapProduct> map_product_named(std::string_view name) {
     const auto only = render::facts_of(*product).only_moment;
     MapProduct layer{*product, only.value_or(level2::Moment::ref)};
     if (dot == std::string_view::npos) return layer;
-    const auto moment = level2::moment_from_name(name.substr(dot + 1));
-    if (!moment) {
-        return fail(ErrorCode::not_found, "there is no moment '{}': it is {}",
-                    printable(name.substr(dot + 1, longest_shown)),
-                    level2::moment_names(", ", " or "));
-    }
+    const auto moment = moment_in_layer(name);
+    if (!moment) return pass_on(moment);
     layer.moment = *moment;
     if (only && layer.moment != *only) {
         return fail(ErrorCode::not_found, "{} is a map of {} alone", render::product_name(*product),

@@ -28,6 +28,10 @@ struct MapProduct {
     bool operator==(const MapProduct&) const = default;
 };
 
+// Returns the moment after the dot of a layer's name, or REF if there is no dot. Errors: not_found,
+// with a list of the moments.
+[[nodiscard]] Result<level2::Moment> moment_in_layer(std::string_view name);
+
 // Finds the product. Errors: not_found, with a list of the products, for a name of another form,
 // for a product that is not a map of a grid, and for a moment that the product does not have.
 [[nodiscard]] Result<MapProduct> map_product_named(std::string_view name);

@@ -17,13 +17,6 @@
 namespace stormcellar::web {
 namespace {
 
-// A sweep of a decoded volume, on its plane.
-struct PlacedSweep {
-    std::shared_ptr<const grid::SourceVolume> source;
-    grid::SweepLookup sweep;
-    cache::GridDescription description;
-};
-
 // Decodes the sweep that a panel shows. The picture names the volume and not the file, whose name
 // may differ between machines. All panels are drawn on the plane of the first.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
@@ -102,7 +95,7 @@ Result<Kept> SweepPictures::find_or_draw(const SweepPicture& picture) {
     return options_.kept->find_or_make(picture.key(), [&] { return draw(picture); });
 }
 
-Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
+Result<std::vector<PlacedSweep>> SweepPictures::decode(const SweepPicture& picture) const {
     const auto catalog = catalog_->get();
     if (!catalog) return pass_on(catalog);
     const std::string file = picture.volume.path.filename().string();
@@ -123,8 +116,14 @@ Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
         if (!sweep) return pass_on(sweep);
         sweeps.push_back(std::move(*sweep));
     }
+    return sweeps;
+}
+
+Result<Kept> SweepPictures::draw(const SweepPicture& picture) {
+    const auto sweeps = decode(picture);
+    if (!sweeps) return pass_on(sweeps);
     std::vector<DrawnPanel> panels;
-    for (const PlacedSweep& placed : sweeps) {
+    for (const PlacedSweep& placed : *sweeps) {
         grid::BrickView view;
         view.spec = &placed.description.spec;
         view.sweep = &placed.sweep;

@@ -12,9 +12,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "grid/place/source_volume.h"
 #include "stormcellar/base/result.h"
+#include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/catalog.h"
+#include "stormcellar/grid/sweep_lookup.h"
 #include "web/data/pictures/frame_pictures.h"
 #include "web/data/pictures/frame_style.h"
 #include "web/data/raw/served_catalog.h"
@@ -32,6 +36,13 @@ struct SweepPicture {
     [[nodiscard]] std::string etag() const;  // with its quotes
 };
 
+// A sweep of a decoded volume, on the plane of `description`.
+struct PlacedSweep {
+    std::shared_ptr<const grid::SourceVolume> source;
+    grid::SweepLookup sweep;
+    cache::GridDescription description;
+};
+
 class SweepPictures {
   public:
     SweepPictures(std::shared_ptr<ServedCatalog> catalog, FramePicturesOptions options)
@@ -43,6 +54,9 @@ class SweepPictures {
     // Returns the picture. If it is not kept, draws it. Errors: not_found if the raw file is gone
     // or has no such sweep; those of decoding and drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const SweepPicture& picture);
+    // Decodes the sweep of each panel. All are on the plane of the first. Errors: not_found if the
+    // raw file is gone or has no such sweep; those of decoding.
+    [[nodiscard]] Result<std::vector<PlacedSweep>> decode(const SweepPicture& picture) const;
 
   private:
     [[nodiscard]] Result<Kept> draw(const SweepPicture& picture);

@@ -130,14 +130,10 @@ bool FramesDoor::find_grids(Asked& asked, UtcTime until) const {
         if (time) asked.time = *time;
         return time.has_value();
     }
-    std::optional<std::pair<UtcTime, level2::Moment>> newest;
-    for (const level2::Moment moment : asked.moments) {
-        const auto time = newest_in_common(*grids_, asked.domain, {moment}, until);
-        if (time && (!newest || *time > newest->first)) newest = {*time, moment};
-    }
+    const auto newest = grid_of_sweep(*grids_, asked.domain, until);
     if (!newest) return false;
-    asked.time = newest->first;
-    asked.moments = {newest->second};
+    asked.time = newest->time;
+    asked.moments = {newest->moment};
     return true;
 }
 
@@ -181,18 +177,10 @@ Answer FramesDoor::of_sweep(const Request& request, Asked what) {
     const auto grid = grid_named(*grids_, what.domain, what.moments.front(), format_utc(what.time));
     if (!grid) return grid.error();
     if ((*grid)->may_change()) what.max_age.reset();
-    const auto picture = sweeps_->find(**grid, std::move(what.style));
-    if (!picture) return picture_error(picture.error());
-    if (!*picture) {
-        return sentence(404, fmt::format("A ppi is drawn of the raw volume, and the catalog has "
-                                         "none that starts at {}.",
-                                         format_utc(what.time)));
-    }
-    const SweepPicture& sweep = **picture;
-    if (sweep.volume.state == catalog::FileState::gone)
-        return sentence(410, "A ppi is drawn of the raw volume, and its file is gone.");
-    if (auto same = unchanged_answer(request, sweep.etag(), what.max_age)) return *same;
-    const auto drawn = sweeps_->find_or_draw(sweep);
+    const auto sweep = sweep_of_grid(*sweeps_, **grid, std::move(what.style));
+    if (!sweep) return sweep.error();
+    if (auto same = unchanged_answer(request, sweep->etag(), what.max_age)) return *same;
+    const auto drawn = sweeps_->find_or_draw(*sweep);
     if (!drawn) return picture_error(drawn.error());
     return picture_answer(request, *drawn, what.max_age);
 }

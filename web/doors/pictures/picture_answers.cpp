@@ -8,6 +8,8 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::chrono::seconds drawing_again_in{2};
+// Look first among grids this new, which usually have the answer, before listing all times.
+constexpr std::chrono::hours looked_at_first{2};
 
 Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment, UtcTime time) {
     const std::string what =
@@ -36,6 +38,37 @@ Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids, std::string_view
     if (grid.error().code == ErrorCode::not_found)
         return tl::unexpected(no_such_grid(grids, domain, moment, *instant));
     return tl::unexpected(picture_error(grid.error()));
+}
+
+std::optional<GridOfSweep> grid_of_sweep(const Grids& grids, std::string_view domain,
+                                         std::optional<UtcTime> until) {
+    std::optional<GridOfSweep> newest;
+    for (const level2::Moment moment : grids.moments(domain)) {
+        std::optional<UtcTime> time = grids.newest(domain, moment);
+        if (time && until) {
+            auto times = grids.times(domain, moment, *until - looked_at_first, until);
+            if (times.empty()) times = grids.times(domain, moment, {}, until);
+            time = times.empty() ? std::nullopt : std::optional(times.back());
+        }
+        if (time && (!newest || *time > newest->time)) newest = {*time, moment};
+    }
+    return newest;
+}
+
+Found<SweepPicture> sweep_of_grid(SweepPictures& sweeps, const OpenGrid& grid, FrameStyle style) {
+    auto picture = sweeps.find(grid, std::move(style));
+    if (!picture) return tl::unexpected(picture_error(picture.error()));
+    if (!*picture) {
+        return tl::unexpected(
+            sentence(404, fmt::format("A ppi is drawn of the raw volume, and the catalog has none "
+                                      "that starts at {}.",
+                                      format_utc(grid.time))));
+    }
+    if ((*picture)->volume.state == catalog::FileState::gone) {
+        return tl::unexpected(
+            sentence(410, "A ppi is drawn of the raw volume, and its file is gone."));
+    }
+    return std::move(**picture);
 }
 
 Answer picture_answer(const Request& request, const Kept& picture,

@@ -13,6 +13,7 @@
 #include "web/data/grids/grids.h"
 #include "web/data/grids/kept_answers.h"
 #include "web/data/pictures/map_pictures.h"
+#include "web/data/pictures/sweep_pictures.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -30,6 +31,20 @@ using Found = tl::expected<Value, Answer>;
                                                                 std::string_view domain,
                                                                 level2::Moment moment,
                                                                 std::string_view time);
+
+// A grid whose raw volume has the sweep to show.
+struct GridOfSweep {
+    UtcTime time;
+    level2::Moment moment;
+};
+// Returns the newest grid of any moment at `until` or before, or none. Without `until`, it is the
+// newest grid by newest_believed().
+[[nodiscard]] std::optional<GridOfSweep> grid_of_sweep(const Grids& grids, std::string_view domain,
+                                                       std::optional<UtcTime> until);
+// Finds the raw volume of the grid. Refuses with 404 if the catalog has none, with 410 if its file
+// is gone, or with the error of SweepPictures::find().
+[[nodiscard]] Found<SweepPicture> sweep_of_grid(SweepPictures& sweeps, const OpenGrid& grid,
+                                                FrameStyle style);
 
 // Answers with a picture that depends only on its address and the grid's bytes. The notes of `kept`
 // are the media type. The client may reuse the picture for `max_age`; none: the client must

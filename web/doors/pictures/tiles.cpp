@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/text_answer.h"
+#include "web/data/pictures/sweep_layer.h"
 #include "web/doors/pictures/picture_answers.h"
 
 namespace stormcellar::web {
@@ -72,6 +74,12 @@ TileJson layer_json(const Request& request, std::string_view domain, const MapPr
                                      layer.name())}};
 }
 
+Error no_such_tile() {
+    return {ErrorCode::not_found, fmt::format("a tile is ZOOM/COLUMN/ROW.png, with zooms from 0 "
+                                              "to {}",
+                                              deepest_zoom)};
+}
+
 // A requested tile, with the grid and layer that it shows.
 struct AskedTile {
     MapStyle style;
@@ -79,9 +87,7 @@ struct AskedTile {
 };
 Result<AskedTile> asked_tile(const Request& request, const std::vector<std::string_view>& path) {
     const auto place = tile_place_of(path[4], path[5], path[6]);
-    if (!place)
-        return fail(ErrorCode::not_found, "a tile is ZOOM/COLUMN/ROW.png, with zooms from 0 to {}",
-                    deepest_zoom);
+    if (!place) return tl::unexpected(no_such_tile());
     const auto layer = map_product_named(path[2]);
     if (!layer) return pass_on(layer);
     auto style = map_style(*layer, request.query, {});
@@ -154,43 +160,92 @@ Answer TilesDoor::index(const Request& request) {
     for (const std::string& domain : pictures_->grids().domains()) {
         if (cache::is_part(domain)) continue;
         TileJson layers = TileJson::array();
-        for (const MapProduct& layer : map_products_of(pictures_->grids().moments(domain)))
+        const auto moments = pictures_->grids().moments(domain);
+        for (const MapProduct& layer : map_products_of(moments))
             layers.push_back(layer_json(request, domain, layer));
+        const bool has_sweeps = pictures_->sweeps() != nullptr && find_station(domain);
+        for (const level2::Moment moment : moments)
+            if (has_sweeps)
+                layers.push_back(layer_json(request, domain, {render::Product::ppi, moment}));
         domains.push_back({{"domain", domain}, {"layers", std::move(layers)}});
     }
-    return json_of_pictures(
-        request, {{"options", parameters_for_help(is_of_layers)}, {"domains", std::move(domains)}});
+    return json_of_pictures(request, {{"options", parameters_for_help(is_of_layers)},
+                                      {"options_of_ppi", parameters_for_help(is_of_sweep_layers)},
+                                      {"domains", std::move(domains)}});
 }
 
 Answer TilesDoor::tilejson(const Request& request, const std::vector<std::string_view>& path) {
+    if (is_sweep_layer(path[2])) {
+        const auto shown = shown_sweep(request, path);
+        if (!shown) return shown.error();
+        const auto plane = pictures_->plane_of(*shown->layer.sweep);
+        if (!plane) return picture_error(plane.error());
+        return tilejson_of(request, path, shown->layer, *plane);
+    }
     const auto layer = map_product_named(path[2]);
     if (!layer) return picture_error(layer.error());
-    const auto style = map_style(*layer, request.query, {});
+    auto style = map_style(*layer, request.query, {});
     if (!style) return picture_error(style.error());
     const auto grid = grid_named(pictures_->grids(), path[1], layer->moment, path[3]);
     if (!grid) return grid.error();
-    const grid::GridSpec& spec = (*grid)->file.description().spec;
-    const render::EarthBox box = pictures_->box_of((*grid)->domain, spec);
+    return tilejson_of(request, path, {*grid, std::move(*style)}, (*grid)->file.description().spec);
+}
+
+Answer TilesDoor::tilejson_of(const Request& request, const std::vector<std::string_view>& path,
+                              const PictureLayer& layer, const grid::GridSpec& spec) {
+    const OpenGrid& grid = *layer.grid;
+    const std::string name = layer.style.layer.name();
     const int deepest = useful_zoom(spec);
     const std::string tiles = fmt::format(
-        "{}/tiles/{}/{}/{}/{{z}}/{{x}}/{{y}}.png{}", request.base, (*grid)->domain, layer->name(),
-        path[3] == "latest" ? "latest" : format_utc((*grid)->time), query_text(request.query));
+        "{}/tiles/{}/{}/{}/{{z}}/{{x}}/{{y}}.png{}", request.base, grid.domain, name,
+        path[3] == "latest" ? "latest" : format_utc(grid.time), query_text(request.query));
     return json_of_pictures(
         request,
         {{"tilejson", "3.0.0"},
-         {"name", fmt::format("{} {}", (*grid)->domain, layer->name())},
+         {"name", fmt::format("{} {}", grid.domain, name)},
          {"description",
-          fmt::format("{}, {}", render::product_title(style->scene), format_utc((*grid)->time))},
+          fmt::format("{}, {}", render::product_title(layer.style.scene), format_utc(grid.time))},
          {"scheme", "xyz"},
          {"tiles", TileJson::array({tiles})},
          {"minzoom", 0},
          {"maxzoom", deepest},
-         {"bounds", bounds_of(box)},
+         {"bounds", bounds_of(pictures_->box_of(grid.domain, spec))},
          {"center",
           {spec.center_longitude_deg, spec.center_latitude_deg, std::max(0, deepest - 5)}}});
 }
 
+Found<TilesDoor::ShownSweep> TilesDoor::shown_sweep(const Request& request,
+                                                    const std::vector<std::string_view>& path) {
+    if (pictures_->sweeps() == nullptr)
+        return tl::unexpected(sentence(404, "This server draws no sweeps."));
+    auto layer = sweep_layer(path[2], request.query);
+    if (!layer) return tl::unexpected(picture_error(layer.error()));
+    std::optional<UtcTime> exact;
+    if (path[3] != "latest") {
+        const auto time = parse_utc(path[3], now_utc());
+        if (!time) return tl::unexpected(picture_error(time.error()));
+        exact = *time;
+    }
+    const auto found = grid_of_sweep(pictures_->grids(), path[1], exact);
+    const UtcTime time = exact.value_or(found ? found->time : UtcTime{});
+    const auto grid = grid_named(pictures_->grids(), path[1],
+                                 found ? found->moment : level2::Moment::ref, format_utc(time));
+    if (!grid) return tl::unexpected(grid.error());
+    auto sweep = sweep_of_grid(*pictures_->sweeps(), **grid, std::move(layer->frame));
+    if (!sweep) return tl::unexpected(sweep.error());
+    return ShownSweep{{*grid, std::move(layer->map), std::move(*sweep)},
+                      max_age_of(path[3], **grid)};
+}
+
 Answer TilesDoor::tile(const Request& request, const std::vector<std::string_view>& path) {
+    if (is_sweep_layer(path[2])) {
+        const auto place = tile_place_of(path[4], path[5], path[6]);
+        if (!place) return picture_error(no_such_tile());
+        auto shown = shown_sweep(request, path);
+        if (!shown) return shown.error();
+        return map_answer(request, *pictures_, {{std::move(shown->layer)}, window_of(*place), {}},
+                          shown->max_age);
+    }
     auto asked = asked_tile(request, path);
     if (!asked) return picture_error(asked.error());
     const auto grid = grid_named(pictures_->grids(), path[1], asked->style.layer.moment, path[3]);

@@ -4,8 +4,8 @@
 //   /tiles/DOMAIN/LAYER/TIME/{z}/{x}/{y}.png            256 pixels, in Web Mercator; "@2x": 512
 //   /tiles/DOMAIN/LAYER/TIME/tilejson.json              TileJSON 3.0
 //
-// LAYER is a name of web/data/pictures/map_product.h. TIME is "latest" or the instant of a grid.
-// The options of the layer are parameters.
+// LAYER is a name of web/data/pictures/map_product.h or of web/data/pictures/sweep_layer.h. TIME is
+// "latest" or the instant of a grid. The options of the layer are parameters.
 //
 // Threads   Many threads may use it.
 #pragma once
@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "web/data/pictures/map_pictures.h"
+#include "web/doors/pictures/picture_answers.h"
 #include "web/http/door.h"
 
 namespace stormcellar::web {
@@ -41,9 +42,19 @@ class TilesDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
+    struct ShownSweep {
+        PictureLayer layer;
+        std::optional<std::chrono::seconds> max_age;
+    };
+    // Finds the raw volume of a layer of sweeps, or refuses.
+    [[nodiscard]] Found<ShownSweep> shown_sweep(const Request& request,
+                                                const std::vector<std::string_view>& path);
     [[nodiscard]] Answer index(const Request& request);
     [[nodiscard]] Answer tilejson(const Request& request,
                                   const std::vector<std::string_view>& path);
+    [[nodiscard]] Answer tilejson_of(const Request& request,
+                                     const std::vector<std::string_view>& path,
+                                     const PictureLayer& layer, const grid::GridSpec& spec);
     [[nodiscard]] Answer tile(const Request& request, const std::vector<std::string_view>& path);
 
     std::shared_ptr<MapPictures> pictures_;
