@@ -1,0 +1,202 @@
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include "capi/guarded.h"
+#include "capi/volume_handle.h"
+#include "stormcellar/base/file_system.h"
+#include "stormcellar/level2/decode.h"
+#include "stormcellar/retrieve/derived_moments.h"
+
+namespace stormcellar::capi {
+namespace {
+
+Result<level2::DecodeOptions> decode_options(const stormcellar_read_options& options) {
+    if (options.threads < 0 || options.volume < 0)
+        return fail(ErrorCode::bad_argument, "threads and volume must be at least 0");
+    level2::DecodeOptions read;
+    read.threads = std::max(1, options.threads);
+    auto moments = moments_named(options.moments);
+    if (!moments) return pass_on(moments);
+    read.selection.moments = std::move(*moments);
+    if (options.station != nullptr) read.fallback_station = options.station;
+    return read;
+}
+
+// Takes the volume of this number, from 1, out of a file.
+Result<std::unique_ptr<stormcellar_volume>> taken(level2::Decoded decoded, int number) {
+    auto handle = std::make_unique<stormcellar_volume>();
+    for (const level2::Problem& problem : decoded.report.problems)
+        handle->problems.push_back(problem.text());
+    handle->is_complete = decoded.report.complete;
+    handle->volumes_in_file = 1 + static_cast<int>(decoded.report.further_volume_starts.size());
+    if (number > handle->volumes_in_file) {
+        return fail(ErrorCode::not_found, "there is no volume {}; the file has {}", number,
+                    handle->volumes_in_file);
+    }
+    if (handle->volumes_in_file == 1) {
+        handle->volume = std::move(decoded.volume);
+        return handle;
+    }
+    auto volumes = level2::split_volumes(std::move(decoded));
+    handle->volume = std::move(volumes[static_cast<std::size_t>(std::max(number, 1) - 1)]);
+    // The report tells about the file, whose earlier volumes may lack something.
+    handle->is_complete = handle->is_complete && level2::has_ended(handle->volume);
+    return handle;
+}
+
+// Decodes what `read` returns with the options, and gives the object to the caller.
+template <class Read>
+Status open_with(const stormcellar_read_options* options, stormcellar_volume** volume, Read read) {
+    if (volume == nullptr) return is_null("volume");
+    *volume = nullptr;
+    const auto all = take(options);
+    if (!all) return pass_on(all);
+    const auto decoding = decode_options(*all);
+    if (!decoding) return pass_on(decoding);
+    Result<level2::Decoded> decoded = read(*decoding);
+    if (!decoded) return pass_on(decoded);
+    auto handle = taken(std::move(*decoded), all->volume);
+    if (!handle) return pass_on(handle);
+    *volume = handle->release();
+    return {};
+}
+
+Status derive(const stormcellar_volume* volume, const char* names,
+              const stormcellar_derive_options* options, stormcellar_volume** derived) {
+    if (volume == nullptr || derived == nullptr)
+        return is_null(volume == nullptr ? "volume" : "derived");
+    *derived = nullptr;
+    const auto moments = moments_named(names);
+    if (!moments) return pass_on(moments);
+    const auto all = take(options);
+    if (!all) return pass_on(all);
+    retrieve::DerivedOptions deriving;
+    if (all->dealias != nullptr) {
+        const auto rung = retrieve::dealiasing_from_name(all->dealias);
+        if (!rung) return pass_on(rung);
+        deriving.dealiasing = *rung;
+    }
+    if (all->storm_motion != nullptr) {
+        const auto motion = retrieve::motion_choice_from(all->storm_motion);
+        if (!motion) return pass_on(motion);
+        deriving.motion = *motion;
+    }
+    if (!(all->quality >= 0 && all->quality <= 1))
+        return fail(ErrorCode::bad_argument, "quality must be from 0 to 1");
+    deriving.quality = all->quality;
+    auto handle = std::make_unique<stormcellar_volume>(*volume);
+    if (retrieve::must_derive(*moments, deriving)) {
+        const auto made = retrieve::add_derived_moments(handle->volume, *moments, deriving);
+        if (!made) return pass_on(made);
+    }
+    *derived = handle.release();
+    return {};
+}
+
+Status describe(const stormcellar_volume* volume, stormcellar_volume_facts* to) {
+    if (volume == nullptr) return is_null("volume");
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    stormcellar_volume_facts facts{};
+    copy_text(volume->volume.station, facts.station, sizeof facts.station);
+    const auto antenna = level2::antenna_position(volume->volume);
+    facts.latitude_deg = antenna ? antenna->latitude_deg : unknown;
+    facts.longitude_deg = antenna ? antenna->longitude_deg : unknown;
+    facts.altitude_m = antenna ? antenna->altitude_m : unknown;
+    const auto start = volume->volume.start_time();
+    facts.start_ms = start ? milliseconds_of(*start) : unknown_time;
+    facts.vcp = volume->volume.vcp.value_or(-1);
+    facts.sweeps = static_cast<std::int32_t>(volume->volume.sweeps.size());
+    facts.complete = volume->is_complete ? 1 : 0;
+    facts.volumes = volume->volumes_in_file;
+    facts.problems = static_cast<std::int32_t>(volume->problems.size());
+    return give(facts, to);
+}
+
+}  // namespace
+
+Result<std::vector<level2::Moment>> moments_named(const char* names) {
+    std::vector<level2::Moment> moments;
+    if (names == nullptr) return moments;
+    std::istringstream words{std::string{names}};
+    for (std::string word; words >> word;) {
+        const auto moment = level2::moment_from_name(word);
+        if (!moment) {
+            return fail(ErrorCode::bad_argument, "there is no moment '{}': it is {}", word,
+                        level2::moment_names(", ", " or "));
+        }
+        moments.push_back(*moment);
+    }
+    return moments;
+}
+
+}  // namespace stormcellar::capi
+
+using namespace stormcellar;
+
+stormcellar_code stormcellar_volume_open(const char* path, const stormcellar_read_options* options,
+                                         stormcellar_volume** volume, stormcellar_error* error) {
+    return capi::guarded(error, [&]() -> Status {
+        if (path == nullptr) return capi::is_null("path");
+        return capi::open_with(options, volume, [&](const level2::DecodeOptions& decoding) {
+            return level2::decode_file(path, decoding);
+        });
+    });
+}
+
+stormcellar_code stormcellar_volume_from_bytes(const void* bytes, size_t size,
+                                               const stormcellar_read_options* options,
+                                               stormcellar_volume** volume,
+                                               stormcellar_error* error) {
+    return capi::guarded(error, [&]() -> Status {
+        if (bytes == nullptr && size > 0) return capi::is_null("bytes");
+        return capi::open_with(options, volume, [&](const level2::DecodeOptions& decoding) {
+            return level2::decode({static_cast<const std::byte*>(bytes), size}, decoding);
+        });
+    });
+}
+
+stormcellar_code stormcellar_volume_from_descriptor(int descriptor,
+                                                    const stormcellar_read_options* options,
+                                                    stormcellar_volume** volume,
+                                                    stormcellar_error* error) {
+    return capi::guarded(error, [&]() -> Status {
+        return capi::open_with(
+            options, volume, [&](const level2::DecodeOptions& decoding) -> Result<level2::Decoded> {
+                const auto bytes = read_open_file(descriptor, "the descriptor", default_read_limit);
+                if (!bytes) return pass_on(bytes);
+                return level2::decode(*bytes, decoding);
+            });
+    });
+}
+
+void stormcellar_volume_free(stormcellar_volume* volume) {
+    delete volume;
+}
+
+stormcellar_code stormcellar_volume_describe(const stormcellar_volume* volume,
+                                             stormcellar_volume_facts* facts,
+                                             stormcellar_error* error) {
+    return capi::guarded(error, [&] { return capi::describe(volume, facts); });
+}
+
+stormcellar_code stormcellar_volume_problem(const stormcellar_volume* volume, int32_t problem,
+                                            char* text, size_t size, stormcellar_error* error) {
+    return capi::guarded(error, [&]() -> Status {
+        if (volume == nullptr || text == nullptr)
+            return capi::is_null(volume == nullptr ? "volume" : "text");
+        if (problem < 0 || static_cast<std::size_t>(problem) >= volume->problems.size())
+            return fail(ErrorCode::bad_argument, "there is no problem {}; there are {}", problem,
+                        volume->problems.size());
+        capi::copy_text(volume->problems[static_cast<std::size_t>(problem)], text, size);
+        return {};
+    });
+}
+
+stormcellar_code stormcellar_volume_derive(const stormcellar_volume* volume, const char* moments,
+                                           const stormcellar_derive_options* options,
+                                           stormcellar_volume** derived, stormcellar_error* error) {
+    return capi::guarded(error, [&] { return capi::derive(volume, moments, options, derived); });
+}

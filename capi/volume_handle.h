@@ -1,0 +1,39 @@
+// capi/volume_handle.h -- the object behind stormcellar_volume.
+//
+// Threads   Plain data, which never changes after the object is made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "stormcellar.h"
+#include "stormcellar/base/result.h"
+#include "stormcellar/base/utc_time.h"
+#include "stormcellar/level2/volume.h"
+
+struct stormcellar_volume {
+    stormcellar::level2::Volume volume;
+    std::vector<std::string> problems;
+    bool is_complete = false;
+    int volumes_in_file = 1;
+};
+
+namespace stormcellar::capi {
+
+inline constexpr std::int64_t unknown_time = INT64_MIN;
+
+[[nodiscard]] inline std::int64_t milliseconds_of(UtcTime time) {
+    return time.time_since_epoch().count();
+}
+
+// Reads the names of moments between blanks. Errors: bad_argument for an unknown name.
+[[nodiscard]] Result<std::vector<level2::Moment>> moments_named(const char* names);
+
+// Errors: bad_argument for a null pointer and for numbers that the volume does not have.
+[[nodiscard]] Result<const level2::Sweep*> sweep_of(const stormcellar_volume* volume,
+                                                    std::int32_t sweep);
+[[nodiscard]] Result<const level2::SweepMoment*> moment_of(const stormcellar_volume* volume,
+                                                           std::int32_t sweep, std::int32_t moment);
+
+}  // namespace stormcellar::capi

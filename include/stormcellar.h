@@ -1,0 +1,208 @@
+// stormcellar.h -- the C interface of stormcellar: reads the Level II files of weather radars.
+//
+// Every function that can fail returns a stormcellar_code, STORMCELLAR_OK or the kind of the
+// failure. If `error` is not null, it then has the code and one line for people. A null pointer
+// where an object is needed is STORMCELLAR_BAD_ARGUMENT.
+//
+// Objects are constant after they are made, so many threads may use one object. An object is freed
+// once, when no thread uses it. Nothing else is shared: the library has no global state.
+//
+// Structs whose first member is `size` may grow at their end in later versions. Set `size` to
+// sizeof the struct before a call; the library reads and writes only as many bytes.
+//
+// Units     Degrees, meters, milliseconds since 1970-01-01 00:00 UTC, and the unit of each moment.
+//           Heights are above mean sea level. Unknown numbers are NaN, unknown times INT64_MIN.
+// Language  C99.
+#ifndef STORMCELLAR_H
+#define STORMCELLAR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define STORMCELLAR_API __attribute__((visibility("default")))
+#else
+#define STORMCELLAR_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Returns the version of the library, such as "0.2.0".
+STORMCELLAR_API const char* stormcellar_version(void);
+
+typedef enum stormcellar_code {
+    STORMCELLAR_OK = 0,
+    STORMCELLAR_BAD_ARGUMENT = 1,  // the caller asked for something that makes no sense
+    STORMCELLAR_NOT_FOUND = 2,     // the thing named does not exist
+    STORMCELLAR_EMPTY = 3,         // the input holds no bytes
+    STORMCELLAR_TRUNCATED = 4,     // the input ends before anything whole
+    STORMCELLAR_CORRUPT = 5,       // the input contradicts itself or its checksum
+    STORMCELLAR_UNSUPPORTED = 6,   // valid, but of a kind that this library does not handle
+    STORMCELLAR_NOT_LEVEL2 = 7,    // the input is not a Level II file
+    STORMCELLAR_NOT_A_FILE = 8,    // a directory, FIFO or other thing that is not a regular file
+    STORMCELLAR_IO = 9,            // the operating system refused a read or a write
+    STORMCELLAR_EXHAUSTED = 10,    // there is no more memory, or no descriptor
+    STORMCELLAR_BUSY = 11,         // another process holds what is needed
+    STORMCELLAR_NO_SPACE = 12,     // the file system is full
+    STORMCELLAR_OVER_BUDGET = 13,  // an allowance of disk or memory is used up
+    STORMCELLAR_UNMET = 14,        // no allowed choice meets the requested error or time
+    STORMCELLAR_PERMISSION = 15,   // the file may not be read or written
+    STORMCELLAR_INTERNAL = 16      // a defect of the library
+} stormcellar_code;
+
+typedef struct stormcellar_error {
+    int32_t code;        // a stormcellar_code
+    char message[1020];  // UTF-8, ends with 0; a longer message is cut
+} stormcellar_error;
+
+// A decoded volume: sweeps of radials, with moments of gates.
+typedef struct stormcellar_volume stormcellar_volume;
+
+typedef struct stormcellar_read_options {
+    size_t size;
+    int32_t threads;      // 0: one
+    int32_t volume;       // number in a file of several volumes, from 1; 0: the first
+    const char* moments;  // names between blanks, "REF VEL", to decode only these; null: all
+    const char* station;  // the station, if the file does not name it: "KTLX"; null: unknown
+} stormcellar_read_options;
+
+// Reads a volume from a file, from bytes, or from a descriptor, from its position to its end. The
+// file may be compressed. Null options are all zero. Bytes are not needed after the call.
+STORMCELLAR_API stormcellar_code stormcellar_volume_open(const char* path,
+                                                         const stormcellar_read_options* options,
+                                                         stormcellar_volume** volume,
+                                                         stormcellar_error* error);
+STORMCELLAR_API stormcellar_code stormcellar_volume_from_bytes(
+    const void* bytes, size_t size, const stormcellar_read_options* options,
+    stormcellar_volume** volume, stormcellar_error* error);
+STORMCELLAR_API stormcellar_code
+stormcellar_volume_from_descriptor(int descriptor, const stormcellar_read_options* options,
+                                   stormcellar_volume** volume, stormcellar_error* error);
+// Frees a volume; null is allowed.
+STORMCELLAR_API void stormcellar_volume_free(stormcellar_volume* volume);
+
+typedef struct stormcellar_volume_facts {
+    size_t size;
+    char station[8];  // "KTLX", or empty
+    double latitude_deg, longitude_deg;
+    double altitude_m;  // of the antenna
+    int64_t start_ms;
+    int32_t vcp;       // volume coverage pattern; -1: unknown
+    int32_t sweeps;    // number of sweeps
+    int32_t complete;  // 1 if the volume ended and nothing of it is missing
+    int32_t volumes;   // number of volumes in the file
+    int32_t problems;  // number of problems that the decoder reports
+} stormcellar_volume_facts;
+
+STORMCELLAR_API stormcellar_code stormcellar_volume_describe(const stormcellar_volume* volume,
+                                                             stormcellar_volume_facts* facts,
+                                                             stormcellar_error* error);
+// Copies a problem, from 0, as one line. A longer line is cut to `size` with the closing 0.
+STORMCELLAR_API stormcellar_code stormcellar_volume_problem(const stormcellar_volume* volume,
+                                                            int32_t problem, char* text,
+                                                            size_t size, stormcellar_error* error);
+
+typedef struct stormcellar_sweep_facts {
+    size_t size;
+    double elevation_deg;        // mean of the radials
+    double fixed_angle_deg;      // of the pattern
+    double azimuth_spacing_deg;  // 0.5 or 1
+    int64_t start_ms, end_ms;    // of the first and the last radial
+    int32_t elevation_number;    // the cut of the pattern, from 1
+    int32_t radials;             // number of radials
+    int32_t moments;             // number of moments
+} stormcellar_sweep_facts;
+
+// Sweeps are numbered from 0 in the order of the file.
+STORMCELLAR_API stormcellar_code stormcellar_sweep_describe(const stormcellar_volume* volume,
+                                                            int32_t sweep,
+                                                            stormcellar_sweep_facts* facts,
+                                                            stormcellar_error* error);
+
+typedef struct stormcellar_radial {
+    int64_t time_ms;
+    float azimuth_deg, elevation_deg;
+    float nyquist_mps;  // 0: unknown
+    float unambiguous_range_m;
+    int32_t status;  // as in the file: 0 first of a sweep, 2 last of a sweep, 3 and 4 of a volume
+    int32_t azimuth_number;
+} stormcellar_radial;
+
+// Copies the radials of a sweep, in the order of the file. `count` must be their number.
+STORMCELLAR_API stormcellar_code stormcellar_sweep_radials(const stormcellar_volume* volume,
+                                                           int32_t sweep,
+                                                           stormcellar_radial* radials,
+                                                           size_t count, stormcellar_error* error);
+
+// The state of a gate.
+typedef enum stormcellar_gate_state {
+    STORMCELLAR_GATE_VALUE = 0,
+    STORMCELLAR_GATE_BELOW_THRESHOLD = 1,
+    STORMCELLAR_GATE_RANGE_FOLDED = 2,
+    STORMCELLAR_GATE_NO_DATA = 3,   // not measured, or beyond the gates of the radial
+    STORMCELLAR_GATE_AMBIGUOUS = 4  // there is echo, but a derived value cannot be told
+} stormcellar_gate_state;
+
+// Gates are in rows, one for each radial of the sweep. A value is (code - offset) / scale, or the
+// code if the scale is 0. If the radials of a sweep differ in their gates, the moment stands there
+// once for each kind of radial, and the other radials have no gates in it.
+typedef struct stormcellar_moment_facts {
+    size_t size;
+    char name[8];            // "REF"
+    char unit[16];           // "dBZ"; "1": no unit
+    int32_t gates;           // codes in a row
+    int32_t first_gate_m;    // slant range to the center of the first gate
+    int32_t gate_spacing_m;  // between centers
+    int32_t code_bytes;      // 1 or 2
+    int32_t first_valid_code;
+    float scale, offset;
+} stormcellar_moment_facts;
+
+// Moments of a sweep are numbered from 0.
+STORMCELLAR_API stormcellar_code stormcellar_moment_describe(const stormcellar_volume* volume,
+                                                             int32_t sweep, int32_t moment,
+                                                             stormcellar_moment_facts* facts,
+                                                             stormcellar_error* error);
+// Finds the number of the first moment of this name. STORMCELLAR_NOT_FOUND if there is none.
+STORMCELLAR_API stormcellar_code stormcellar_moment_find(const stormcellar_volume* volume,
+                                                         int32_t sweep, const char* name,
+                                                         int32_t* moment, stormcellar_error* error);
+// Points to the codes, radials times gates of 1 or 2 bytes. They live as long as the volume.
+STORMCELLAR_API stormcellar_code stormcellar_moment_codes(const stormcellar_volume* volume,
+                                                          int32_t sweep, int32_t moment,
+                                                          const void** codes,
+                                                          stormcellar_error* error);
+// Writes the values, NaN where a gate has none. `count` must be radials times gates.
+STORMCELLAR_API stormcellar_code stormcellar_moment_values(const stormcellar_volume* volume,
+                                                           int32_t sweep, int32_t moment,
+                                                           float* values, size_t count,
+                                                           stormcellar_error* error);
+// Writes the states (stormcellar_gate_state), one byte each. `count` as above.
+STORMCELLAR_API stormcellar_code stormcellar_moment_states(const stormcellar_volume* volume,
+                                                           int32_t sweep, int32_t moment,
+                                                           uint8_t* states, size_t count,
+                                                           stormcellar_error* error);
+
+typedef struct stormcellar_derive_options {
+    size_t size;
+    const char* dealias;       // auto, off, profile, region or anchored; null: auto
+    const char* storm_motion;  // of SRV: auto, right, left, mean, or "240/15"; null: auto
+    double quality;            // leave out gates with a lesser probability of weather; 0: none
+} stormcellar_derive_options;
+
+// Returns a copy of the volume with derived moments, named between blanks: VELD (dealiased
+// velocity), SRV (relative to a storm), AZSH (azimuthal shear), DIVG (divergence), POW (probability
+// of weather), KDP (specific differential phase), RATE (rain rate). Methods and errors:
+// docs/velocity.md, docs/quality.md, docs/storms.md. Null options are the defaults.
+STORMCELLAR_API stormcellar_code
+stormcellar_volume_derive(const stormcellar_volume* volume, const char* moments,
+                          const stormcellar_derive_options* options, stormcellar_volume** derived,
+                          stormcellar_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
