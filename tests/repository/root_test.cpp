@@ -21,7 +21,7 @@ constexpr std::array root_documents = {"CHANGELOG.md",      "CITATION.cff",    "
                                        "LICENSE",           "README.md",       "SECURITY.md"};
 constexpr std::array hidden_names = {".ci", ".clang-format", ".clang-tidy", ".git", ".gitignore"};
 // Folders without a CMakeLists.txt.
-constexpr std::array other_folders = {"cmake", "docs", "include", "scenes", "scripts"};
+constexpr std::array other_folders = {"cmake", "docs", "include", "python", "scenes", "scripts"};
 
 bool is_one_of(const auto& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();

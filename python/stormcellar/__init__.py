@@ -1,0 +1,26 @@
+"""Reads the Level II files of weather radars (NEXRAD, TDWR) as NumPy arrays and xarray datasets.
+
+    >>> import stormcellar
+    >>> volume = stormcellar.Volume(FILE)
+    >>> volume.station
+    'KTLX'
+    >>> volume.sweeps[0].moments["REF"].values().shape
+    (365, 460)
+
+Volume needs NumPy alone; open_volume() and open_datatree() need xarray. All work is done by the
+library libstormcellar.so.0, which releases the interpreter's lock.
+"""
+
+from ._library import Error, version
+from .volume import Moment, State, Sweep, Volume
+
+__all__ = ["Error", "Moment", "State", "Sweep", "Volume", "open_datatree", "open_volume", "version"]
+
+
+def __getattr__(name):
+    """Imports xarray only when a function that needs it is used."""
+    if name in ("open_datatree", "open_volume"):
+        from . import trees
+
+        return getattr(trees, name)
+    raise AttributeError(f"module 'stormcellar' has no attribute '{name}'")

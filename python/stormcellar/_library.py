@@ -1,0 +1,103 @@
+"""The functions of libstormcellar.so.0 (include/stormcellar.h) by ctypes."""
+
+import ctypes
+import os
+import pathlib
+from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, c_void_p
+
+# The names of stormcellar_code, in the order of the header.
+CODES = ("ok", "bad_argument", "not_found", "empty", "truncated", "corrupt", "unsupported", "not_level2", "not_a_file",
+         "io", "exhausted", "busy", "no_space", "over_budget", "unmet", "permission", "internal")
+
+
+class Error(Exception):
+    """A failure of the library: one line for people, and `code`, a name of CODES, for programs."""
+
+    def __init__(self, message, code):
+        super().__init__(message)
+        self.code = code
+
+
+class ErrorStruct(Structure):
+    _fields_ = [("code", c_int32), ("message", c_char * 1020)]
+
+
+class ReadOptions(Structure):
+    _fields_ = [("size", c_size_t), ("threads", c_int32), ("volume", c_int32), ("moments", c_char_p),
+                ("station", c_char_p)]
+
+
+class VolumeFacts(Structure):
+    _fields_ = [("size", c_size_t), ("station", c_char * 8), ("latitude_deg", c_double), ("longitude_deg", c_double),
+                ("altitude_m", c_double), ("start_ms", c_int64), ("vcp", c_int32), ("sweeps", c_int32),
+                ("complete", c_int32), ("volumes", c_int32), ("problems", c_int32)]
+
+
+class SweepFacts(Structure):
+    _fields_ = [("size", c_size_t), ("elevation_deg", c_double), ("fixed_angle_deg", c_double),
+                ("azimuth_spacing_deg", c_double), ("start_ms", c_int64), ("end_ms", c_int64),
+                ("elevation_number", c_int32), ("radials", c_int32), ("moments", c_int32)]
+
+
+class MomentFacts(Structure):
+    _fields_ = [("size", c_size_t), ("name", c_char * 8), ("unit", c_char * 16), ("gates", c_int32),
+                ("first_gate_m", c_int32), ("gate_spacing_m", c_int32), ("code_bytes", c_int32),
+                ("first_valid_code", c_int32), ("scale", c_float), ("offset", c_float)]
+
+
+class DeriveOptions(Structure):
+    _fields_ = [("size", c_size_t), ("dealias", c_char_p), ("storm_motion", c_char_p), ("quality", c_double)]
+
+
+def sized(kind, **values):
+    """Returns a struct whose first member is its size."""
+    return kind(size=ctypes.sizeof(kind), **values)
+
+
+def _load():
+    named = os.environ.get("STORMCELLAR_LIBRARY")
+    beside = pathlib.Path(__file__).with_name("libstormcellar.so.0")
+    return ctypes.CDLL(named or (str(beside) if beside.exists() else "libstormcellar.so.0"))
+
+
+_library = _load()
+
+# The arguments of each function before the error, which is always last.
+_FUNCTIONS = {
+    "volume_open": [c_char_p, POINTER(ReadOptions), POINTER(c_void_p)],
+    "volume_from_bytes": [c_void_p, c_size_t, POINTER(ReadOptions), POINTER(c_void_p)],
+    "volume_from_descriptor": [c_int, POINTER(ReadOptions), POINTER(c_void_p)],
+    "volume_describe": [c_void_p, POINTER(VolumeFacts)],
+    "volume_problem": [c_void_p, c_int32, c_char_p, c_size_t],
+    "volume_derive": [c_void_p, c_char_p, POINTER(DeriveOptions), POINTER(c_void_p)],
+    "sweep_describe": [c_void_p, c_int32, POINTER(SweepFacts)],
+    "sweep_radials": [c_void_p, c_int32, c_void_p, c_size_t],
+    "moment_describe": [c_void_p, c_int32, c_int32, POINTER(MomentFacts)],
+    "moment_codes": [c_void_p, c_int32, c_int32, POINTER(c_void_p)],
+    "moment_values": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
+    "moment_states": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
+}
+for _name, _arguments in _FUNCTIONS.items():
+    _function = getattr(_library, "stormcellar_" + _name)
+    _function.argtypes = [*_arguments, POINTER(ErrorStruct)]
+    _function.restype = c_int
+_library.stormcellar_volume_free.argtypes = [c_void_p]
+_library.stormcellar_volume_free.restype = None
+_library.stormcellar_version.restype = c_char_p
+
+
+def call(name, *arguments):
+    """Calls stormcellar_NAME. Raises Error if it fails."""
+    error = ErrorStruct()
+    code = getattr(_library, "stormcellar_" + name)(*arguments, ctypes.byref(error))
+    if code != 0:
+        raise Error(error.message.decode(errors="replace"), CODES[code] if code < len(CODES) else "internal")
+
+
+def free_volume(handle):
+    _library.stormcellar_volume_free(handle)
+
+
+def version():
+    """Returns the version of the library, such as '0.2.0'."""
+    return _library.stormcellar_version().decode()
