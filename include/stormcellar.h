@@ -201,6 +201,74 @@ stormcellar_volume_derive(const stormcellar_volume* volume, const char* moments,
                           const stormcellar_derive_options* options, stormcellar_volume** derived,
                           stormcellar_error* error);
 
+// A grid of one moment: columns from west to east, rows from south to north, and levels.
+typedef struct stormcellar_grid stormcellar_grid;
+
+// Members that are 0 or null have the defaults of `stormcellar grid`: 460 by 460 columns of 1 km
+// about the radar, and 32 levels.
+typedef struct stormcellar_grid_options {
+    size_t size;
+    const char* moment;  // null: reflectivity
+    int32_t columns, rows;
+    double spacing_m;
+    const double* levels_m;  // heights above mean sea level, rising
+    int32_t level_count;
+    int32_t has_center;  // 1: the grid is about the center below; 0: about the radar
+    double center_latitude_deg, center_longitude_deg;
+    const char* interpolation;  // nearest, linear, eight-point or beam-weighted; null: linear
+    int32_t mean_of_cell;       // 1: the mean over the cell; 0: a point at its center
+    int32_t average_in_z;       // 1: reflectivity is averaged as power
+    int32_t threads;            // 0: one
+} stormcellar_grid_options;
+
+// Grids a volume on a plane about the center (azimuthal equidistant on WGS84). Accuracy:
+// docs/accuracy.md.
+STORMCELLAR_API stormcellar_code stormcellar_grid_make(const stormcellar_volume* volume,
+                                                       const stormcellar_grid_options* options,
+                                                       stormcellar_grid** grid,
+                                                       stormcellar_error* error);
+// Frees a grid; null is allowed.
+STORMCELLAR_API void stormcellar_grid_free(stormcellar_grid* grid);
+
+typedef struct stormcellar_grid_facts {
+    size_t size;
+    char moment[8];
+    char unit[16];
+    int32_t columns, rows, levels;
+    int32_t mean_of_cell;  // 1: values are means over their cells
+    double spacing_m;
+    double center_latitude_deg, center_longitude_deg;
+    int64_t time_ms;           // start of the volume
+    int64_t start_ms, end_ms;  // of the radials that were used
+} stormcellar_grid_facts;
+
+STORMCELLAR_API stormcellar_code stormcellar_grid_describe(const stormcellar_grid* grid,
+                                                           stormcellar_grid_facts* facts,
+                                                           stormcellar_error* error);
+
+// The state of a cell.
+typedef enum stormcellar_cell_state {
+    STORMCELLAR_CELL_NOT_SEEN = 0,
+    STORMCELLAR_CELL_NO_ECHO = 1,
+    STORMCELLAR_CELL_RANGE_FOLDED = 2,
+    STORMCELLAR_CELL_VALUE = 3,
+    STORMCELLAR_CELL_AMBIGUOUS = 5
+} stormcellar_cell_state;
+
+// Point to the heights of the levels, the values, and the states of the cells (one byte each).
+// Cells are in rows of columns of levels: cell (row, column, level) is at
+// (row * columns + column) * levels + level. A value counts only if the state is value. The arrays
+// live as long as the grid.
+STORMCELLAR_API stormcellar_code stormcellar_grid_levels(const stormcellar_grid* grid,
+                                                         const double** levels_m,
+                                                         stormcellar_error* error);
+STORMCELLAR_API stormcellar_code stormcellar_grid_values(const stormcellar_grid* grid,
+                                                         const float** values,
+                                                         stormcellar_error* error);
+STORMCELLAR_API stormcellar_code stormcellar_grid_states(const stormcellar_grid* grid,
+                                                         const uint8_t** states,
+                                                         stormcellar_error* error);
+
 #ifdef __cplusplus
 }
 #endif

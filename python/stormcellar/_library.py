@@ -49,6 +49,20 @@ class DeriveOptions(Structure):
     _fields_ = [("size", c_size_t), ("dealias", c_char_p), ("storm_motion", c_char_p), ("quality", c_double)]
 
 
+class GridOptions(Structure):
+    _fields_ = [("size", c_size_t), ("moment", c_char_p), ("columns", c_int32), ("rows", c_int32),
+                ("spacing_m", c_double), ("levels_m", POINTER(c_double)), ("level_count", c_int32),
+                ("has_center", c_int32), ("center_latitude_deg", c_double), ("center_longitude_deg", c_double),
+                ("interpolation", c_char_p), ("mean_of_cell", c_int32), ("average_in_z", c_int32), ("threads", c_int32)]
+
+
+class GridFacts(Structure):
+    _fields_ = [("size", c_size_t), ("moment", c_char * 8), ("unit", c_char * 16), ("columns", c_int32),
+                ("rows", c_int32), ("levels", c_int32), ("mean_of_cell", c_int32), ("spacing_m", c_double),
+                ("center_latitude_deg", c_double), ("center_longitude_deg", c_double), ("time_ms", c_int64),
+                ("start_ms", c_int64), ("end_ms", c_int64)]
+
+
 def sized(kind, **values):
     """Returns a struct whose first member is its size."""
     return kind(size=ctypes.sizeof(kind), **values)
@@ -76,13 +90,19 @@ _FUNCTIONS = {
     "moment_codes": [c_void_p, c_int32, c_int32, POINTER(c_void_p)],
     "moment_values": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
     "moment_states": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
+    "grid_make": [c_void_p, POINTER(GridOptions), POINTER(c_void_p)],
+    "grid_describe": [c_void_p, POINTER(GridFacts)],
+    "grid_levels": [c_void_p, c_void_p],
+    "grid_values": [c_void_p, c_void_p],
+    "grid_states": [c_void_p, c_void_p],
 }
 for _name, _arguments in _FUNCTIONS.items():
     _function = getattr(_library, "stormcellar_" + _name)
     _function.argtypes = [*_arguments, POINTER(ErrorStruct)]
     _function.restype = c_int
-_library.stormcellar_volume_free.argtypes = [c_void_p]
-_library.stormcellar_volume_free.restype = None
+for _function in (_library.stormcellar_volume_free, _library.stormcellar_grid_free):
+    _function.argtypes = [c_void_p]
+    _function.restype = None
 _library.stormcellar_version.restype = c_char_p
 
 
@@ -96,6 +116,10 @@ def call(name, *arguments):
 
 def free_volume(handle):
     _library.stormcellar_volume_free(handle)
+
+
+def free_grid(handle):
+    _library.stormcellar_grid_free(handle)
 
 
 def version():
