@@ -13,6 +13,7 @@ using nlohmann::ordered_json;
 using retrieve::CellForecast;
 using retrieve::CellSighting;
 using retrieve::TrackedCell;
+using retrieve::TrackedScan;
 
 std::string dumped(const ordered_json& document) {
     return document.dump(1, ' ', true, ordered_json::error_handler_t::replace) + "\n";
@@ -63,6 +64,13 @@ ordered_json feature(std::string_view type, ordered_json points, ordered_json pr
     return {{"type", "Feature"},
             {"geometry", {{"type", type}, {"coordinates", std::move(points)}}},
             {"properties", std::move(properties)}};
+}
+
+// Names the heights on which MESH depends, and the error of both that its range covers.
+void add_freezing_levels(const TrackedScan& scan, ordered_json& json) {
+    if (!scan.freezing) return;
+    json["assumed_freezing_levels_m"] = {scan.freezing->zero_c_m, scan.freezing->minus_20_c_m};
+    json["freezing_levels_error_m"] = retrieve::usual_level_error_m;
 }
 
 // Adds the features of a cell: a point, and the lines behind and ahead of it.
@@ -128,19 +136,22 @@ std::string csv_row(const TrackedCell& cell) {
 
 }  // namespace
 
-std::string cells_json(const retrieve::TrackedScan& scan) {
-    ordered_json document = {
-        {"area", scan.area}, {"time", format_utc(scan.time)}, {"cells", ordered_json::array()}};
+std::string cells_json(const TrackedScan& scan) {
+    ordered_json document = {{"area", scan.area}, {"time", format_utc(scan.time)}};
+    add_freezing_levels(scan, document);
+    document["cells"] = ordered_json::array();
     for (const TrackedCell& cell : scan.cells)
         document["cells"].push_back(cell_json(cell));
     return dumped(document);
 }
 
-std::string cells_geojson(std::span<const TrackedCell> cells) {
-    ordered_json features = ordered_json::array();
-    for (const TrackedCell& cell : cells)
-        add_features(cell, features);
-    return dumped({{"type", "FeatureCollection"}, {"features", std::move(features)}});
+std::string cells_geojson(const TrackedScan& scan) {
+    ordered_json all = {{"type", "FeatureCollection"}};
+    add_freezing_levels(scan, all);
+    all["features"] = ordered_json::array();
+    for (const TrackedCell& cell : scan.cells)
+        add_features(cell, all["features"]);
+    return dumped(all);
 }
 
 std::string cells_csv(std::span<const TrackedCell> cells) {

@@ -20,6 +20,14 @@ constexpr auto table = std::to_array<CellValue>({
     {"top_m", 0, [](const TrackedCell& c) { return Number(c.cell.top_m); }},
     {"vil_kg_per_m2", 1, [](const TrackedCell& c) { return Number(c.cell.vil_kg_per_m2); }},
     {"mesh_mm", 1, [](const TrackedCell& c) { return Number(c.cell.mesh_mm); }},
+    {"mesh_least_mm", 1,
+     [](const TrackedCell& c) {
+         return c.cell.mesh_range ? Number(c.cell.mesh_range->least_mm) : std::nullopt;
+     }},
+    {"mesh_most_mm", 1,
+     [](const TrackedCell& c) {
+         return c.cell.mesh_range ? Number(c.cell.mesh_range->most_mm) : std::nullopt;
+     }},
     {"azimuthal_shear_per_s", 4,
      [](const TrackedCell& c) { return Number(c.cell.azimuthal_shear_per_s); }},
     {"motion_east_mps", 1,

@@ -5,6 +5,7 @@
 
 #include "base/printable.h"
 #include "base/toml_file.h"
+#include "retrieve/hail/freezing_key.h"
 #include "service/config_keys.h"
 #include "stormcellar/cache/grid_name.h"
 
@@ -123,16 +124,6 @@ void read_rule(TomlTable table, const std::filesystem::path& file, std::vector<N
     rules.push_back(std::move(rule));
 }
 
-void read_freezing(TomlTable& notify, retrieve::FreezingLevels& freezing) {
-    const auto levels = notify.numbers("freezing_levels_m");
-    if (!levels) return;
-    if (levels->size() != 2)
-        return notify.complain("freezing_levels_m", "must be two heights, as in [4200, 7300]");
-    freezing = {(*levels)[0], (*levels)[1]};
-    if (const auto valid = retrieve::validate(freezing); !valid)
-        notify.complain("freezing_levels_m", valid.error().message);
-}
-
 }  // namespace
 
 Result<NotifyConfig> load_notify_config(const std::filesystem::path& file) {
@@ -146,7 +137,7 @@ Result<NotifyConfig> load_notify_config(const std::filesystem::path& file) {
     paths.leave("state");
     TomlTable notify = root.section("notify");
     read_path_beside(notify, "directory", file, config.directory);
-    read_freezing(notify, config.freezing);
+    retrieve::read_freezing_levels(notify, config.freezing);
     const auto tables = notify.tables("rule");
     if (tables.size() > most_rules) notify.complain("rule", "has too many tables");
     for (const TomlTable& table : tables)

@@ -60,8 +60,7 @@ std::string cells_table(const TrackedScan& scan) {
 std::span<const CellFormat> cell_formats() {
     static constexpr std::array<CellFormat, 4> formats = {{
         {"json", ".json", [](const TrackedScan& s) { return cell_export::cells_json(s); }},
-        {"geojson", ".geojson",
-         [](const TrackedScan& s) { return cell_export::cells_geojson(s.cells); }},
+        {"geojson", ".geojson", [](const TrackedScan& s) { return cell_export::cells_geojson(s); }},
         {"csv", ".csv", [](const TrackedScan& s) { return cell_export::cells_csv(s.cells); }},
         {"placefile", ".txt",
          [](const TrackedScan& s) {

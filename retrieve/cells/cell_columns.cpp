@@ -42,6 +42,7 @@ ColumnMeter::ColumnMeter(const CellFields& fields, std::optional<HailLayers> hai
 
 void ColumnMeter::measure(StormCell& cell) {
     double most_liquid = 0;
+    std::vector<float> most_hail_dbz;  // of the column with the largest MESH
     for (const ColumnRun& run : cell.columns) {
         for (int ix = run.first_x; ix < run.end_x; ++ix) {
             read(ix, run.iy);
@@ -49,6 +50,7 @@ void ColumnMeter::measure(StormCell& cell) {
             most_liquid = std::max(most_liquid, vil());
             if (hail_) {
                 const float mesh_mm = hail_of_column(*hail_, dbz_).mesh_mm;
+                if (!cell.mesh_mm || mesh_mm > *cell.mesh_mm) most_hail_dbz = dbz_;
                 cell.mesh_mm = std::max(cell.mesh_mm.value_or(0), mesh_mm);
             }
             if (const auto shear = greatest_shear(ix, run.iy)) {
@@ -58,6 +60,10 @@ void ColumnMeter::measure(StormCell& cell) {
         }
     }
     cell.vil_kg_per_m2 = static_cast<float>(most_liquid);
+    if (!cell.mesh_mm || !fields_.freezing) return;
+    const auto range = mesh_range(fields_.reflectivity.spec->levels_m, most_hail_dbz,
+                                  *fields_.freezing, usual_level_error_m);
+    if (range) cell.mesh_range = *range;
 }
 
 void ColumnMeter::read(int ix, int iy) {

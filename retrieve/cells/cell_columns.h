@@ -24,7 +24,7 @@ class ColumnMeter {
     // `hail` is absent if the freezing levels are unknown. The fields must outlive the meter.
     ColumnMeter(const CellFields& fields, std::optional<HailLayers> hail, float top_dbz);
 
-    // Sets top, VIL, MESH and azimuthal shear of a cell from its columns.
+    // Sets top, VIL, MESH with its range, and azimuthal shear of a cell from its columns.
     void measure(StormCell& cell);
 
   private:

@@ -54,7 +54,8 @@ Result<CellScan> find_cells(const CellFields& fields, UtcTime time, std::string 
         if (!layers) return pass_on(layers);
         hail = std::move(*layers);
     }
-    CellScan scan{time, std::move(area), *view.spec, {}};
+    CellScan scan{time, std::move(area), *view.spec, {}, {}};
+    if (hail) scan.freezing = fields.freezing;
     const StrongEcho echo(view, options.least_dbz);
     if (echo.cells().empty()) return scan;
     const FloodedEcho flooded = flood_peaks(echo, flood_rules(*view.spec, options));

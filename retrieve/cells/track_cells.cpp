@@ -39,7 +39,7 @@ class Tracker {
             if (tracks_[i].is_open) open_.push_back(i);
         const std::vector<ExpectedCell> expected = expect_cells(scan);
         const CellMatches matches = match_cells(expected, scan);
-        TrackedScan tracked{scan.time, scan.area, {}};
+        TrackedScan tracked{scan.time, scan.area, {}, scan.freezing};
         std::vector<std::size_t> track_of(scan.cells.size());
         for (std::size_t j = 0; j < scan.cells.size(); ++j) {
             TrackedCell cell;

@@ -19,7 +19,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 TEST(CellText, JsonHasAllValuesAndLeavesOutUnknownOnes) {
-    const json scan = json::parse(cells_json({cells_time, "KTLX", two_tracked_cells()}));
+    const json scan = json::parse(cells_json({cells_time, "KTLX", two_tracked_cells(), {}}));
     EXPECT_EQ(scan["area"], "KTLX");
     EXPECT_EQ(scan["time"], "2013-05-20T20:00:00Z");
     ASSERT_EQ(scan["cells"].size(), 2U);
@@ -43,7 +43,8 @@ TEST(CellText, JsonHasAllValuesAndLeavesOutUnknownOnes) {
 
 // RFC 7946: section 3.1.1 has longitude first; section 3.1.4 wants two positions of a line.
 TEST(CellText, GeojsonHasAPointATrackAndAForecast) {
-    const json features = json::parse(cells_geojson(two_tracked_cells()))["features"];
+    const json features =
+        json::parse(cells_geojson({cells_time, "KTLX", two_tracked_cells(), {}}))["features"];
     ASSERT_EQ(features.size(), 4U);
     const json& point = features[0];
     EXPECT_EQ(point["type"], "Feature");
@@ -58,13 +59,29 @@ TEST(CellText, GeojsonHasAPointATrackAndAForecast) {
     EXPECT_TRUE(json::parse(cells_geojson({}))["features"].empty());
 }
 
+TEST(CellText, NamesTheAssumedFreezingLevelsAndTheRangeOfMesh) {
+    const retrieve::TrackedScan scan{cells_time, "KTLX", two_tracked_cells(),
+                                     retrieve::FreezingLevels{3900, 7000}};
+    for (const std::string& text : {cells_json(scan), cells_geojson(scan)}) {
+        const json all = json::parse(text);
+        EXPECT_EQ(all["assumed_freezing_levels_m"], json({3900, 7000}));
+        EXPECT_EQ(all["freezing_levels_error_m"], 300);
+    }
+    const json point = json::parse(cells_geojson(scan))["features"][0]["properties"];
+    EXPECT_EQ(point["mesh_least_mm"], 33.2);
+    EXPECT_EQ(point["mesh_most_mm"], 43);
+    const json without = json::parse(cells_json({cells_time, "KTLX", two_tracked_cells(), {}}));
+    EXPECT_FALSE(without.contains("assumed_freezing_levels_m"));
+    EXPECT_FALSE(without["cells"][1].contains("mesh_least_mm"));
+}
+
 TEST(CellText, GdalOpensTheGeojson) {
     constexpr const char* ogr_info = "/usr/bin/ogrinfo";
     if (!std::filesystem::exists(ogr_info))
         GTEST_SKIP() << "GDAL's programs are not installed (scripts/install-packages test)";
     const testing::TemporaryDirectory directory;
     const auto file = directory.path() / "cells.geojson";
-    std::ofstream(file) << cells_geojson(two_tracked_cells());
+    std::ofstream(file) << cells_geojson({cells_time, "KTLX", two_tracked_cells(), {}});
     const auto ran = testing::run_program(ogr_info, {"-ro", "-al", file.string()});
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_EQ(ran.err, "") << "GDAL must not warn";

@@ -28,6 +28,7 @@ inline std::vector<retrieve::TrackedCell> two_tracked_cells() {
     known.cell.top_is_at_least = true;
     known.cell.vil_kg_per_m2 = 55;
     known.cell.mesh_mm = 38.1F;
+    known.cell.mesh_range = retrieve::MeshRange{33.2F, 43};
     known.cell.azimuthal_shear_per_s = 0.0123F;
     known.past = {{cells_time - 5min, {35.32, -97.51}}};
     known.motion = retrieve::TrackMotion{{10, 5}, 1.5};

@@ -81,6 +81,11 @@ TEST(StormCells, MeasureTheStorm) {
     EXPECT_FALSE(cell.azimuthal_shear_per_s);
     ASSERT_TRUE(cell.mesh_mm);
     EXPECT_GT(*cell.mesh_mm, 5);
+    // Lower freezing levels give larger hail, so the range holds MESH.
+    ASSERT_TRUE(cell.mesh_range);
+    EXPECT_LT(cell.mesh_range->least_mm, *cell.mesh_mm);
+    EXPECT_GT(cell.mesh_range->most_mm, *cell.mesh_mm);
+    EXPECT_EQ(scan->freezing, FreezingLevels{});
 }
 
 TEST(StormCells, TopIsExactWhereTheAirAboveWasSeen) {
@@ -92,6 +97,8 @@ TEST(StormCells, TopIsExactWhereTheAirAboveWasSeen) {
     EXPECT_FALSE(scan->cells.front().top_is_at_least);
     EXPECT_NEAR(scan->cells.front().top_m, 12070, 750);
     EXPECT_FALSE(scan->cells.front().mesh_mm);  // without freezing levels
+    EXPECT_FALSE(scan->cells.front().mesh_range);
+    EXPECT_FALSE(scan->freezing);
 }
 
 TEST(StormCells, VilOfAColumnIsThatOfGreeneAndClark) {

@@ -64,6 +64,22 @@ TEST_F(ApiStorms, CellsAreGeoJson) {
     EXPECT_EQ(kinds(earlier), (Kinds{"cell"}));
 }
 
+TEST_F(ApiStorms, CellsHaveMeshForTheFreezingLevelsOfTheConfiguration) {
+    served_.add("KTLX", 0);
+    const json usual = geojson("/api/v1/cells");
+    EXPECT_EQ(usual["assumed_freezing_levels_m"], json({4200, 7300}));
+    EXPECT_EQ(usual["freezing_levels_error_m"], 300);
+    const json storm = usual["features"][0]["properties"];
+    EXPECT_LT(storm["mesh_least_mm"], storm["mesh_mm"]);
+    EXPECT_GT(storm["mesh_most_mm"], storm["mesh_mm"]);
+
+    StormScans cold(served_.grids(), {2000, 5000});
+    const auto lower = cold.track(storm_areas(*served_.grids(), {.area = "KTLX"})->front());
+    ASSERT_TRUE(lower) << lower.error().message;
+    EXPECT_EQ(lower->freezing, (retrieve::FreezingLevels{2000, 5000}));
+    EXPECT_GT(lower->cells.front().cell.mesh_mm, storm["mesh_mm"].get<float>());
+}
+
 TEST_F(ApiStorms, CellsOfSeveralAreasNameTheirArea) {
     served_.add("KTLX", 0);
     served_.add("KFWS", 1, 20);

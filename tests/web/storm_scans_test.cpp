@@ -53,7 +53,7 @@ TEST(StormScans, SearchEachGridOnce) {
 TEST(StormScans, KeepLittleMemory) {
     ServedStorms served;
     served.add_half_hour("KTLX");
-    StormScans scans(served.grids(), 1);  // keeps only the newest scan
+    StormScans scans(served.grids(), {}, 1);  // keeps only the newest scan
     for (int i = 0; i < 2; ++i) {
         const auto tracked = scans.track(area_of(served, "KTLX"));
         ASSERT_TRUE(tracked);

@@ -10,6 +10,7 @@
 #include "base/byte_size.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
+#include "retrieve/hail/freezing_key.h"
 
 namespace stormcellar::web {
 namespace {
@@ -382,6 +383,7 @@ WebConfig read_web_config(TomlTable& root) {
     read_addresses(web, config);
     read_parts(web, config);
     read_seconds(web, "silent_seconds", {60, 86'400}, config.silent);
+    retrieve::read_freezing_levels(web, config.freezing);
     read_thredds(web.section("thredds"), config.thredds);
     read_limits(web.section("limits"), config.limits);
     return config;

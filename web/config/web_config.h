@@ -19,6 +19,7 @@
 
 #include "base/toml_file.h"
 #include "stormcellar/base/result.h"
+#include "stormcellar/retrieve/hail.h"
 
 namespace stormcellar::web {
 
@@ -126,6 +127,7 @@ struct WebConfig {
     std::vector<std::string> embed_in;  // origins whose pages may show ours in a frame
     // A station counts as silent if nothing came from it for this long.
     std::chrono::seconds silent{1200};
+    retrieve::FreezingLevels freezing;  // for MESH of storm cells
     ThreddsConfig thredds = usual_thredds();
     WebLimits limits;
 

@@ -143,7 +143,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::s3))
         doors->add("/s3", std::make_shared<S3Door>(files, setup.web.bucket));
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
-    const auto scans = std::make_shared<StormScans>(sources.grids);
+    const auto scans = std::make_shared<StormScans>(sources.grids, setup.web.freezing);
     const Watched watched = watch_over(sources, scans);
     if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
     if (setup.web.serves(WebPart::grids)) {

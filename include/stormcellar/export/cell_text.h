@@ -12,6 +12,10 @@
 // Units       Positions in degrees with 5 decimals. Names of columns and properties end with their
 //             units; heights are above mean sea level. The placefile has kft and knots, which its
 //             readers use. Times are in ISO 8601, UTC.
+// Hail        JSON and GeoJSON name the freezing levels for which the cells have their MESH, as
+//             `assumed_freezing_levels_m`, and the error of both levels that gives `mesh_least_mm`
+//             and `mesh_most_mm`, as `freezing_levels_error_m`. In GeoJSON these are members of
+//             the collection.
 // Unknown     JSON and GeoJSON leave out unknown values.
 // Threads     Pure functions. The same cells give the same bytes.
 #pragma once
@@ -25,7 +29,7 @@ namespace stormcellar::cell_export {
 
 // Returns one JSON object: {"area":..., "time":..., "cells":[...]}.
 [[nodiscard]] std::string cells_json(const retrieve::TrackedScan& scan);
-[[nodiscard]] std::string cells_geojson(std::span<const retrieve::TrackedCell> cells);
+[[nodiscard]] std::string cells_geojson(const retrieve::TrackedScan& scan);
 [[nodiscard]] std::string cells_csv(std::span<const retrieve::TrackedCell> cells);
 
 struct PlacefileLook {

@@ -73,6 +73,8 @@ struct StormCell {
     bool top_is_at_least = false;
     float vil_kg_per_m2 = 0;       // the largest of its columns; reflectivity counts up to 56 dBZ
     std::optional<float> mesh_mm;  // the largest of its columns; absent without freezing levels
+    // MESH of the column with the largest, if both freezing levels err by usual_level_error_m.
+    std::optional<MeshRange> mesh_range;
     std::optional<float> azimuthal_shear_per_s;  // the largest in its columns; absent if not given
     std::vector<ColumnRun> columns;              // of the scan's grid, by row, then column
     // Motion of the echo around the cell since the scan before; absent if nobody estimated it.
@@ -85,6 +87,7 @@ struct CellScan {
     std::string area;  // station or domain
     grid::GridSpec spec;
     std::vector<StormCell> cells;
+    std::optional<FreezingLevels> freezing = {};  // for which the cells have their MESH
 };
 
 // The grids of one time in which cells are found. All have the same spec.
@@ -151,7 +154,8 @@ struct TrackedCell {
 struct TrackedScan {
     UtcTime time;
     std::string area;
-    std::vector<TrackedCell> cells;  // the strongest first
+    std::vector<TrackedCell> cells;               // the strongest first
+    std::optional<FreezingLevels> freezing = {};  // as in CellScan
 };
 
 struct TrackOptions {

@@ -19,10 +19,10 @@ std::uint64_t bytes_of(const CellScan& scan) {
 }
 
 // Searches an open grid. `shear` and `before` may be null.
-Result<CellScan> search(const OpenGrid& grid, const OpenGrid* shear, const OpenGrid* before) {
-    retrieve::CellFields fields{.reflectivity = grid.file.view(),
-                                .azimuthal_shear = std::nullopt,
-                                .freezing = std::nullopt};
+Result<CellScan> search(const OpenGrid& grid, const OpenGrid* shear, const OpenGrid* before,
+                        const retrieve::FreezingLevels& freezing) {
+    retrieve::CellFields fields{
+        .reflectivity = grid.file.view(), .azimuthal_shear = std::nullopt, .freezing = freezing};
     const grid::GridSpec& spec = *fields.reflectivity.spec;
     if (shear != nullptr && *shear->file.view().spec == spec)
         fields.azimuthal_shear = shear->file.view();
@@ -65,7 +65,7 @@ Result<StormScans::Scan> StormScans::scan(const std::string& area, UtcTime time,
                                         id_of(shear), id_of(earlier));
     const MutexLock lock(mutex_);
     if (const Scan* const found = kept_.find(key)) return *found;
-    auto made = search(**grid, shear.get(), earlier.get());
+    auto made = search(**grid, shear.get(), earlier.get(), freezing_);
     if (!made) return pass_on(made);
     ++searched_;
     const std::uint64_t bytes = bytes_of(*made);
@@ -84,7 +84,7 @@ Result<retrieve::TrackedScan> StormScans::track(const StormArea& area) {
             return pass_on(found);
         }
     }
-    if (scans.empty()) return retrieve::TrackedScan{{}, area.name, {}};
+    if (scans.empty()) return retrieve::TrackedScan{{}, area.name, {}, {}};
     auto tracked = retrieve::track_cells(scans);
     if (!tracked) return pass_on(tracked);
     return std::move(tracked->back());

@@ -3,7 +3,7 @@
 //
 // The cells of each grid are kept, so each grid is searched once. A grid that is made again has
 // another id and is searched again. The grid of azimuthal shear of the same time is used if it has
-// the same cells. Hail is not computed, because the server knows no freezing levels.
+// the same cells. MESH is computed for the freezing levels of the configuration.
 //
 // Units     The budget is in bytes; a scan counts as the sizes of its cells and columns.
 // Threads   Many threads may use it. One thread at a time searches a grid.
@@ -24,9 +24,9 @@ namespace stormcellar::web {
 
 class StormScans {
   public:
-    explicit StormScans(std::shared_ptr<Grids> grids,
+    explicit StormScans(std::shared_ptr<Grids> grids, retrieve::FreezingLevels freezing = {},
                         std::uint64_t budget_bytes = std::uint64_t{32} << 20)
-        : grids_(std::move(grids)), kept_({.weight = budget_bytes}) {}
+        : grids_(std::move(grids)), freezing_(freezing), kept_({.weight = budget_bytes}) {}
 
     using Scan = std::shared_ptr<const retrieve::CellScan>;
     // Returns the cells of a grid of reflectivity, with the motion of the echo since the grid
@@ -44,6 +44,7 @@ class StormScans {
 
   private:
     const std::shared_ptr<Grids> grids_;
+    const retrieve::FreezingLevels freezing_;
     mutable Mutex mutex_;
     RecentlyUsed<std::string, Scan> kept_ STORMCELLAR_GUARDED_BY(mutex_);
     std::uint64_t searched_ STORMCELLAR_GUARDED_BY(mutex_) = 0;

@@ -98,8 +98,10 @@ Result<std::string> StormAnswers::cells_geojson(const WantedStorms& wanted) cons
         const auto tracked = scans_->track(area);
         if (!tracked) return pass_on(tracked);
         all["areas"].push_back(area_json(area));
-        ApiJson of_area =
-            ApiJson::parse(cell_export::cells_geojson(tracked->cells), nullptr, false);
+        ApiJson of_area = ApiJson::parse(cell_export::cells_geojson(*tracked), nullptr, false);
+        // All areas have the levels of the configuration.
+        for (const auto& [name, value] : of_area.items())
+            if (!all.contains(name)) all[name] = value;
         for (ApiJson& feature : of_area["features"]) {
             feature["properties"]["area"] = area.name;
             all["features"].push_back(std::move(feature));

@@ -41,6 +41,8 @@ test('texts name units, errors and what is unknown', () => {
     const text = (name: string, one: StormCell) => columns[column(name)]!.text(one, usualUnits);
     assert.equal(text('Speed', cell('a', { speedMps: 15.2, speedErrorMps: 1.6 })), '15 ± 2 m/s');
     assert.equal(text('Speed', cell('a', {})), '–');
+    assert.equal(text('MESH', cell('a', { meshMm: 41.6 })), '42');
+    assert.equal(text('MESH', cell('a', {})), '–');
     assert.equal(text('Shear', cell('a', { shearPerS: 0.0123 })), '12.3');
     assert(text('Top', cell('a', { isTopAtLeast: true })).startsWith('> '));
 });

@@ -37,6 +37,12 @@ export const columns: readonly Column[] = [
         text: (cell) => cell.vilKgM2.toFixed(0),
     },
     {
+        name: 'MESH',
+        hint: 'size of hail that a quarter of the reported stones exceed, mm; it depends on assumed freezing levels',
+        of: (cell) => cell.meshMm,
+        text: (cell) => numberText(cell.meshMm, 0),
+    },
+    {
         name: 'Shear',
         hint: 'largest azimuthal shear, 0.001/s',
         of: (cell) => cell.shearPerS,
