@@ -96,6 +96,7 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
             fmt::format("0 C at {:g} m, -20 C at {:g} m above sea level, assumed",
                         scene.freezing_levels.zero_c_m, scene.freezing_levels.minus_20_c_m));
     add("Hail error", facts.hail);
+    add("Storm cells", facts.cells);
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);

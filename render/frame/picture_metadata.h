@@ -10,6 +10,7 @@
 //   Domain, Stations, Product, Moment, Units
 //   Freezing levels     for hail
 //   Hail error          if the freezing levels err; for a still
+//   Storm cells         if they are marked: how they were found and followed
 //   Grid                cells, spacing, levels
 //   Gridding            method, beam, averaging, effects
 //   Gridding error      as predicted, if it was predicted
@@ -42,6 +43,7 @@ struct PictureFacts {
     std::string between;                // how frames between grids were made; empty: there are none
     std::string error;                  // error of the picture by its plan; empty: not planned
     std::string hail = {};              // error of the largest hail; empty: no hail
+    std::string cells = {};             // the storm cells that are marked; empty: none are marked
 };
 
 // Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid, whose

@@ -1,5 +1,6 @@
 #include "stormcellar/render/render.h"
 
+#include "render/frame/cell_overlay_text.h"
 #include "render/frame/hail_text.h"
 #include "render/frame/sweep_text.h"
 #include "render/frame/view_picture.h"
@@ -47,12 +48,12 @@ ViewGeometry picture_geometry(const grid::GridSpec& spec, const Scene& scene, in
 }
 
 Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts, const Scene& asked,
-                           int threads, FrameCache* kept, const grid::BrickView* rotation) {
+                           int threads, FrameCache* kept, const Overlays& overlays) {
     if (auto valid = check_frame(view, facts, asked); !valid) return pass_on(valid);
     const Scene scene = scene_shown(view, asked);
     const bool of_sweep = view.sweep != nullptr;
     const auto columns = of_sweep ? std::vector<ColumnSummary>{} : summarize_columns(view, threads);
-    const DrawnView drawn{view, facts, scene, columns, rotation};
+    const DrawnView drawn{view, facts, scene, columns, overlays};
     FrameCache own;
     FrameCache& cache = kept != nullptr ? *kept : own;
     if (!scene.labels) {
@@ -61,7 +62,8 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     const auto fonts = Fonts::load();
     if (!fonts) return pass_on(fonts);
     DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
-    if (rotation != nullptr) add_rotation_rows(texts.legend);
+    if (overlays.rotation != nullptr) add_rotation_rows(texts.legend);
+    if (overlays.cells != nullptr) add_cell_notes(*overlays.cells, texts.legend);
     const auto sensitivity = hail_sensitivity(view, scene, threads);
     if (!sensitivity) return pass_on(sensitivity);
     texts.hail = *sensitivity;

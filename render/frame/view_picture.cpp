@@ -59,9 +59,9 @@ void draw_rotation(const DrawnView& drawn, const ViewGeometry& geometry, int thr
                    Image& picture) {
     const Scene& scene = drawn.scene;
     const VolumeSlicer slicer(
-        rotation_colors(), drawn.rotation->quantization, geometry,
+        rotation_colors(), drawn.overlays.rotation->quantization, geometry,
         {scene.slices, scene.integration, 1, scene.pixel_tolerance, scene.light}, nullptr, threads);
-    composite_over(slicer.draw(*drawn.rotation, threads), picture, 0, 0, threads);
+    composite_over(slicer.draw(*drawn.overlays.rotation, threads), picture, 0, 0, threads);
 }
 
 Result<Image> draw_whole_section(const DrawnView& drawn, const PictureSize& size,
@@ -133,6 +133,8 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
                    .sites = &drawn.facts.sites,
                    .ring_spacing_m = drawn_ring_spacing(spec, scene),
                    .units = scene.units,
+                   .cells = drawn.overlays.cells,
+                   .time = drawn.facts.time,
                    .heights = view == View::volume,
                    .scale = size.scale,
                    .shades = &shades_of(scene.theme)};
@@ -154,14 +156,18 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
     if (view == View::volume) {
         Image picture = canvas.image();
         draw_volume(drawn, geometry, threads, cache, picture);
-        if (drawn.rotation != nullptr) draw_rotation(drawn, geometry, threads, picture);
-        if (fonts == nullptr) return picture;
+        if (drawn.overlays.rotation != nullptr) draw_rotation(drawn, geometry, threads, picture);
+        if (fonts == nullptr && lines.cells == nullptr) return picture;
         canvas.place(picture, 0, 0);
     }
     const MapMarks marks = fonts != nullptr ? plan_marks(*fonts, lines) : MapMarks{};
     if (has_glyphs)
         draw_beam_glyphs(canvas, plan_beam_glyphs(*drawn.view.sweep, lines, marks), lines);
     if (fonts != nullptr) draw_marks(canvas, *fonts, lines, marks);
+    if (fonts == nullptr && lines.cells != nullptr) {
+        LabelPlaces places({});
+        draw_cell_marks(canvas, plan_cell_marks(nullptr, lines, places), lines);
+    }
     if (marks.glyph_key) draw_glyph_key(canvas, *fonts, lines, *marks.glyph_key);
     return canvas.image();
 }

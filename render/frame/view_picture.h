@@ -14,6 +14,7 @@
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/image.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/scene.h"
 
 namespace stormcellar::render {
@@ -24,7 +25,7 @@ struct DrawnView {
     const FrameFacts& facts;
     const Scene& scene;
     const std::vector<ColumnSummary>& columns;
-    const grid::BrickView* rotation = nullptr;  // drawn over a volume
+    Overlays overlays = {};
 };
 
 // The size of the picture, and of its lines and letters.

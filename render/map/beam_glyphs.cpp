@@ -63,6 +63,8 @@ std::vector<Rect> boxes_of(const MapMarks& marks) {
         for (const MarkText& text : *texts)
             boxes.push_back(text.box);
     }
+    for (const CellMark& cell : marks.cells)
+        if (cell.label) boxes.push_back(cell.label->box);
     return boxes;
 }
 

@@ -16,7 +16,9 @@
 
 #include "render/image/canvas.h"
 #include "render/map/map_layer.h"
+#include "stormcellar/base/utc_time.h"
 #include "stormcellar/grid/grid.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/scene.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -26,12 +28,14 @@ struct MapLines {
     const ViewGeometry* geometry = nullptr;
     const grid::GridSpec* spec = nullptr;
     const std::vector<grid::SitePosition>* sites = nullptr;
-    const MapLayer* map = nullptr;  // cities to mark; null: none
-    double ring_spacing_m = 50e3;   // as drawn, from drawn_ring_spacing()
-    Units units;                    // units of written numbers
-    Point glyph_key = {};           // width and height of the key of beam glyphs; 0: no key
-    bool heights = false;           // a scale of heights at the left edge of the box
-    double scale = 1;               // of lines and text
+    const MapLayer* map = nullptr;       // cities to mark; null: none
+    double ring_spacing_m = 50e3;        // as drawn, from drawn_ring_spacing()
+    Units units;                         // units of written numbers
+    Point glyph_key = {};                // width and height of the key of beam glyphs; 0: no key
+    const CellOverlay* cells = nullptr;  // storm cells to mark; null: none
+    UtcTime time = {};                   // of the picture
+    bool heights = false;                // a scale of heights at the left edge of the box
+    double scale = 1;                    // of lines and text
     const Shades* shades = &shades::dark;
     double left = 0, top = 0;
 };

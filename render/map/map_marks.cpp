@@ -46,6 +46,7 @@ class Planner {
         drop_covered_sites();
         for (std::size_t i = 0; i < marks_.sites.size(); ++i)
             plan_site_name(marks_.sites[i], names_[i]);
+        marks_.cells = plan_cell_marks(&fonts_, lines_, places_);
         if (lines_.heights) plan_heights();
         if (lines_.sites->size() == 1) plan_distances();
         if (lines_.map != nullptr) plan_cities();
@@ -75,17 +76,9 @@ class Planner {
     }
     static Rect about(Point p, double half) { return {p.x - half, p.y - half, 2 * half, 2 * half}; }
 
-    // Takes the place of a text if it is free, and returns the text. Returns none if it is not
-    // free.
     std::optional<MarkText> claim(const std::string& text, Point left_baseline, double size,
                                   bool bold, Rgba8 color) {
-        const double halo = scaled(1);
-        // The text will be drawn on whole pixels.
-        left_baseline = {std::nearbyint(left_baseline.x), std::nearbyint(left_baseline.y)};
-        const Rect box = {left_baseline.x - halo, left_baseline.y - 0.8 * size - halo,
-                          fonts_.width(text, size, bold) + 2 * halo, 1.05 * size + 2 * halo};
-        if (!places_.claim(box)) return std::nullopt;
-        return MarkText{box, left_baseline, size, bold, color, text};
+        return claim_text(places_, fonts_, text, left_baseline, {size, bold, color, scaled(1)});
     }
 
     // Chooses the corner for the arrow and the bar: the first corner without a site, or else the

@@ -20,18 +20,11 @@
 #include <string>
 #include <vector>
 
+#include "render/map/cell_marks.h"
 #include "render/map/map_lines.h"
+#include "render/map/mark_text.h"
 
 namespace stormcellar::render {
-
-struct MarkText {
-    Rect box;  // contains the text
-    Point left_baseline;
-    double size = 0;
-    bool bold = false;
-    Rgba8 color{};
-    std::string text;
-};
 
 struct ScaleBar {
     Point left;  // left end of the bar
@@ -57,6 +50,7 @@ struct MapMarks {
     Rect north;
     std::optional<ScaleBar> scale_bar;
     std::optional<Rect> glyph_key = {};  // render/map/beam_glyphs.h
+    std::vector<CellMark> cells = {};    // the strongest first
 };
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);

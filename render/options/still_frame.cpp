@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "render/frame/cell_overlay_text.h"
 #include "render/frame/hail_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/fitted_view.h"
@@ -15,6 +16,7 @@ Metadata metadata_of_still(const StillSource& source, const Scene& scene,
     const UtcTime time = source.description.time;
     PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
     // If the sensitivity cannot be computed, drawing the picture fails with the reason.
+    if (source.overlays.cells != nullptr) told.cells = cells_sentence(*source.overlays.cells);
     told.hail = hail_sensitivity(source.view, scene, writing.threads).value_or("");
     if (writing.format.encode_map == nullptr) return metadata_of(told, source.description, scene);
     // Data must be in the units of the grid. A map as data has no picture size.
@@ -53,7 +55,7 @@ Result<std::vector<std::byte>> encode_still(const StillSource& source, const Sce
     if (writing.format.encode_map != nullptr)
         return writing.format.encode_map({source.view, facts, scene}, options);
     const auto picture =
-        render_frame(source.view, facts, scene, writing.threads, nullptr, source.rotation);
+        render_frame(source.view, facts, scene, writing.threads, nullptr, source.overlays);
     if (!picture) return pass_on(picture);
     if (writing.drawn) writing.drawn();
     return writing.format.encode_picture(*picture, options);

@@ -18,6 +18,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/scene.h"
 #include "stormcellar/render/still.h"
 
@@ -33,7 +34,7 @@ struct StillSource {
     // If true, the picture tells the age of the newest radial if that is less than an hour. If
     // false, the picture does not depend on the time at which it is drawn.
     bool tells_age = true;
-    const grid::BrickView* rotation = nullptr;  // as for render_frame()
+    Overlays overlays = {};  // as for render_frame()
 };
 
 // Returns the facts for the labels of the still.

@@ -13,6 +13,7 @@
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/image.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/scene.h"
 #include "stormcellar/render/view_geometry.h"
 
@@ -25,12 +26,12 @@ struct FrameCache;  // render/frame/frame_cache.h
 // cache. A ppi needs a view of a sweep (BrickView::sweep), every other product a view of a grid.
 // Errors: bad_argument if the view has another moment than the scene or is of the wrong kind, for
 // heights beyond the grid, and for a section outside the grid; those of check_frame(). The columns
-// of `rotation` (render/products/rotation.h; null: none) are drawn over a volume, because echo
-// would hide them. They must be on the grid of the view.
+// of `overlays.rotation` (render/products/rotation.h) are drawn over a volume, because echo would
+// hide them; storm cells are marked in maps and volumes.
 [[nodiscard]] Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
                                          const Scene& scene, int threads,
                                          FrameCache* cache = nullptr,
-                                         const grid::BrickView* rotation = nullptr);
+                                         const Overlays& overlays = {});
 
 // Checks the requirements of render_frame() before anything is drawn. Also returns unsupported for
 // a volume of more than 2^31 codes.

@@ -1,0 +1,49 @@
+#include "render/frame/cell_overlay_text.h"
+
+#include <fmt/format.h>
+
+namespace stormcellar::render {
+namespace {
+
+std::string cells_counted(std::size_t count) {
+    return fmt::format("{} storm {}", count, count == 1 ? "cell" : "cells");
+}
+
+}  // namespace
+
+void add_cell_notes(const CellOverlay& overlay, Legend& legend) {
+    if (!legend.notes.empty()) legend.notes.back() += ";";
+    legend.notes.push_back(cells_counted(overlay.scan.cells.size()) + ",");
+    legend.notes.push_back(fmt::format("peak {:g} dBZ or more,", overlay.method.least_peak_dbz));
+    if (overlay.volumes == 1) {
+        legend.notes.emplace_back("1 volume: no motion,");
+        legend.notes.emplace_back("no forecast");
+        return;
+    }
+    legend.notes.push_back(fmt::format("in {} volumes; dashes:", overlay.volumes));
+    legend.notes.emplace_back("15, 30, 45, 60 min;");
+    legend.notes.emplace_back("circles: error");
+}
+
+std::string cells_method(const CellOverlay& overlay) {
+    const retrieve::CellOptions& method = overlay.method;
+    std::string text = fmt::format(
+        "echo of {:g} dBZ and more about peaks of {:g} dBZ and more, {:g} km2 and {:g} km deep",
+        method.least_dbz, method.least_peak_dbz, method.least_area_km2,
+        method.least_depth_m / 1000);
+    if (overlay.scan.freezing) {
+        text += fmt::format("; MESH assumes 0 C at {:g} m, -20 C at {:g} m above sea level",
+                            overlay.scan.freezing->zero_c_m, overlay.scan.freezing->minus_20_c_m);
+    }
+    return text;
+}
+
+std::string cells_sentence(const CellOverlay& overlay) {
+    const std::string followed = overlay.volumes == 1
+                                     ? std::string("of one volume, so without motion and forecast")
+                                     : fmt::format("followed through {} volumes", overlay.volumes);
+    return fmt::format("{} at {}, {}; {}", cells_counted(overlay.scan.cells.size()),
+                       format_utc(overlay.scan.time), followed, cells_method(overlay));
+}
+
+}  // namespace stormcellar::render

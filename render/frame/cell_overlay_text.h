@@ -1,0 +1,23 @@
+// render/frame/cell_overlay_text.h -- says which storm cells a picture marks, and how they were
+// found.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <string>
+
+#include "render/map/legend.h"
+#include "stormcellar/render/overlays.h"
+
+namespace stormcellar::render {
+
+// Adds notes to a legend: the number of cells, the least peak, and the number of volumes through
+// which they were followed. One volume shows no motion, so the notes say that there is no forecast.
+void add_cell_notes(const CellOverlay& overlay, Legend& legend);
+
+// Returns the same with the whole method, for the metadata of a picture.
+[[nodiscard]] std::string cells_sentence(const CellOverlay& overlay);
+// Returns the method alone, for the metadata of a loop.
+[[nodiscard]] std::string cells_method(const CellOverlay& overlay);
+
+}  // namespace stormcellar::render
