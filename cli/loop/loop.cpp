@@ -25,6 +25,7 @@
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output_file.h"
 #include "cli/shared/progress.h"
+#include "render/frame/cell_overlay_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/picture_options.h"
 #include "stormcellar/cache/grid_file.h"
@@ -39,7 +40,11 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& s
     Progress progress("frames", frames.size(), !options.quiet);
     const auto cameras = cameras_of(options, shown, grids.frames_there, frames.size());
     if (!cameras) return pass_on(cameras);
-    Drawing drawing{shown.scene, {}, {}, {}, {}};
+    Drawing drawing{shown.scene, {}, {}, {}, {}, {}};
+    if (options.scene.overlay == render::overlay_cells) {
+        drawing.cells.emplace(*grids.store, grids.domain,
+                              chosen_freezing_levels(options.scene, shown.scene));
+    }
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (stop) return {};
         drawing.scene.camera = (*cameras)[i];
@@ -141,9 +146,11 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     const std::string between = some_between ? grids.between->method_text() : "";
     const auto by_time = [](const LoopFrame& a, const LoopFrame& b) { return a.time < b.time; };
     const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
-    options.animation.metadata = render::metadata_of(
-        {options.domain, from->time, to->time, grids.frames.size(), between, *error}, description,
-        scene);
+    render::PictureFacts told{options.domain,      from->time, to->time,
+                              grids.frames.size(), between,    *error};
+    if (options.scene.overlay == render::overlay_cells)
+        told.cells = render::cells_method(chosen_freezing_levels(options.scene, scene));
+    options.animation.metadata = render::metadata_of(told, description, scene);
     return {};
 }
 

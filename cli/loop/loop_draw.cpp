@@ -4,6 +4,7 @@
 #include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/export/cell_text.h"
 #include "stormcellar/render/render.h"
 
 namespace stormcellar::cli {
@@ -73,13 +74,22 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     auto facts = frame_facts_of(options.domain,
                                 is_over_time ? drawing.track.description() : grid->description(),
                                 options.scene.time_zone);
+    std::optional<render::CellOverlay> cells;
+    if (drawing.cells) {
+        auto found = drawing.cells->at(frame.time);
+        if (!found && found.error().code == ErrorCode::not_found) return pass_on(found);
+        if (!found) return skip(found.error());
+        cells = std::move(*found);
+    }
     facts.interpolated = grid->made != nullptr && options.time_method != "nearest";
     const auto render = [&] {
         return render::render_frame(is_over_time ? drawing.track.view() : grid->view(), facts,
-                                    drawing.scene, threads, &drawing.cache);
+                                    drawing.scene, threads, &drawing.cache,
+                                    {.cells = cells ? &*cells : nullptr});
     };
     auto picture = options.kept != nullptr && frame.stored && !is_over_time
-                       ? options.kept->frame(frame.stored->path, drawing.scene, render)
+                       ? options.kept->frame(frame.stored->path, drawing.scene, render,
+                                             cells ? cell_export::cells_json(cells->scan) : "")
                        : render();
     report.render_s += seconds_since(opened);
     if (!picture) return pass_on(picture);

@@ -7,6 +7,7 @@
 #include "cli/loop/loop_options.h"
 #include "cli/loop/loop_report.h"
 #include "cli/picture/rotation_track.h"
+#include "cli/picture/stored_cells.h"
 #include "render/frame/frame_cache.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/render/image.h"
@@ -21,11 +22,13 @@ struct Drawing {
     // The last grid that was made between volumes, and its time.
     std::optional<pipeline::MosaicFrame> made;
     UtcTime made_for{};
-    RotationTrack track;  // of the frames so far, for a product over time
+    RotationTrack track;               // of the frames so far, for a product over time
+    std::optional<StoredCells> cells;  // storm cells to mark
 };
 
 // Draws one frame. If its grid is damaged or cannot be made, returns none and adds the reason to
-// the report.
+// the report. Errors: those of render_frame(); not_found if there is no reflectivity for storm
+// cells.
 [[nodiscard]] Result<std::optional<render::Image>> draw(
     const LoopFrame& frame, const LoopOptions& options,
     std::optional<pipeline::BetweenGrids>& between, Drawing& drawing, LoopReport& report);

@@ -28,9 +28,11 @@ std::string key_of(const std::filesystem::path& grid, const render::Scene& scene
 }  // namespace
 
 Result<render::Image> DrawnFrames::frame(const std::filesystem::path& grid,
-                                         const render::Scene& scene, const Draw& draw) {
+                                         const render::Scene& scene, const Draw& draw,
+                                         const std::string& marks) {
     // Make the key before drawing. If the grid is replaced meanwhile, its next key differs.
-    const std::string key = key_of(grid, scene);
+    std::string key = key_of(grid, scene);
+    if (!key.empty()) key += marks;
     if (const auto found = frames_.find(key); found != frames_.end()) {
         found->second.is_wanted = true;
         return found->second.image;

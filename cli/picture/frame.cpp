@@ -30,7 +30,7 @@ namespace {
 
 // Draws the frame. `fit_s` is the time for fitting the view; it is part of the reading time.
 Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene& scene,
-                               const PictureGrid& file, const grid::BrickView* rotation,
+                               const PictureGrid& file, const render::Overlays& overlays,
                                SteadyTime start, double fit_s) {
     FrameTiming timing;
     timing.read_s = seconds_since(start);
@@ -53,7 +53,7 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
         .drawn = [&] { timing.render_s = seconds_since(start) - timing.read_s; }};
     const grid::BrickView view = file.view();
     const auto bytes = render::encode_still(
-        {options.domain, view, file.description(), options.scene, true, rotation}, planned,
+        {options.domain, view, file.description(), options.scene, true, overlays}, planned,
         writing);
     if (!bytes) return pass_on(bytes);
     if (Status whole = file.check_whole(); !whole) return pass_on(whole);
@@ -108,8 +108,9 @@ int run_frame(FrameOptions options) {
                        .total_s = seconds_since(start)};
     if (!options.output.empty()) {
         const grid::BrickView rotation = *columns ? (*columns)->view() : grid::BrickView{};
-        const auto drawn =
-            make_frame(options, *scene, *grid, *columns ? &rotation : nullptr, start, fit_s);
+        const render::Overlays overlays{.rotation = *columns ? &rotation : nullptr,
+                                        .cells = grids->cells ? &*grids->cells : nullptr};
+        const auto drawn = make_frame(options, *scene, *grid, overlays, start, fit_s);
         if (!drawn) return report_error(drawn.error());
         timing = *drawn;
     }

@@ -26,6 +26,8 @@ void take_panels(FrameOptions& options) {
 Status check_frame_output(FrameOptions& options, render::Product product) {
     if (options.output.empty()) return {};
     if (Status fits = check_still_output(options.output, product, options.json); !fits) return fits;
+    if (Status fits = check_overlay_output(options.output, options.scene.overlay); !fits)
+        return fits;
     const auto tiff = parse_tiff_content(options.geotiff, options.output);
     if (!tiff) return pass_on(tiff);
     options.tiff = *tiff;

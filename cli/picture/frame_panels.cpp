@@ -41,6 +41,10 @@ int run_panels(FrameOptions& options, SteadyTime start) {
                              "--probe and --probe-at are for a picture of one moment, not for "
                              "--panels"});
     }
+    if (!options.scene.overlay.empty()) {
+        return report_error({ErrorCode::bad_argument,
+                             "--overlay is for a picture of one moment, not for --panels"});
+    }
     if (options.plan.asked()) {
         return report_error({ErrorCode::bad_argument,
                              "--tolerance, --effect and --explain plan a picture of one volume; "

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "cli/picture/cell_scans.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/raw_volume.h"
+#include "cli/picture/stored_cells.h"
 #include "cli/shared/cache_domain.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
@@ -84,21 +86,34 @@ Result<PictureGrid> stored_shear(const cache::StoreReader& store, const FrameOpt
     return PictureGrid::open(entries->back().path);
 }
 
+// Finds the storm cells to mark in a picture of this time, if they were asked for.
+Status find_stored_cells(const cache::StoreReader& store, const FrameOptions& options,
+                         const render::Scene& scene, FrameGrids& grids) {
+    if (options.scene.overlay != render::overlay_cells) return {};
+    StoredCells cells(store, options.domain, chosen_freezing_levels(options.scene, scene));
+    auto found = cells.at(grids.shown->description().time);
+    if (!found) return pass_on(found);
+    grids.cells = std::move(*found);
+    return {};
+}
+
 // Returns the grid. If no grid matched, reports that and returns none.
-Result<FrameGrids> stored_grid(FrameOptions& options, level2::Moment moment) {
+Result<FrameGrids> stored_grid(FrameOptions& options, const render::Scene& scene) {
     if (Status none = refuse_grid_options(options); !none) return pass_on(none);
     const auto store = open_store(options);
     if (!store) return pass_on(store);
-    const auto entry = find_grid(*store, options, moment);
+    const auto entry = find_grid(*store, options, scene.moment);
     if (!entry) return pass_on(entry);
     FrameGrids grids;
     if (!*entry) {
-        report_nothing(*store, options, moment);
+        report_nothing(*store, options, scene.moment);
         return grids;
     }
     auto grid = PictureGrid::open((*entry)->path);
     if (!grid) return pass_on(grid);
     grids.shown = std::move(*grid);
+    if (Status found = find_stored_cells(*store, options, scene, grids); !found)
+        return pass_on(found);
     if (!options.rotation) return grids;
     auto shear = stored_shear(*store, options, (*entry)->time);
     if (!shear) return pass_on(shear);
@@ -108,14 +123,15 @@ Result<FrameGrids> stored_grid(FrameOptions& options, level2::Moment moment) {
 
 // Returns the sweep, read from the raw volume of the domain's newest grid of any moment. If there
 // is no grid, reports that and returns none.
-Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const render::Scene& scene) {
+Result<FrameGrids> stored_sweep(FrameOptions& options, const render::Scene& scene) {
     const auto store = open_store(options);
     if (!store) return pass_on(store);
     const auto entry = find_grid(*store, options, std::nullopt);
     if (!entry) return pass_on(entry);
+    FrameGrids grids;
     if (!*entry) {
         report_nothing(*store, options, scene.moment);
-        return std::optional<PictureGrid>{};
+        return grids;
     }
     const auto grid = cache::GridFile::open((*entry)->path);
     if (!grid) return pass_on(grid);
@@ -133,7 +149,10 @@ Result<std::optional<PictureGrid>> stored_sweep(FrameOptions& options, const ren
     if (!volume) return pass_on(volume);
     auto sweep = PictureGrid::of_sweep(std::move(*volume), scene);
     if (!sweep) return pass_on(sweep);
-    return std::optional{std::move(*sweep)};
+    grids.shown = std::move(*sweep);
+    if (Status found = find_stored_cells(*store, options, scene, grids); !found)
+        return pass_on(found);
+    return grids;
 }
 
 Result<PictureGrid> sweep_of_file(const GridOptions& options, const render::Scene& scene) {
@@ -150,12 +169,28 @@ Result<FrameGrids> made_grids(GridOptions grid, bool has_rotation) {
     }
     auto made = PictureGrid::make_each(std::move(grid));
     if (!made) return pass_on(made);
-    FrameGrids grids{std::move(made->front()), std::nullopt};
+    FrameGrids grids{std::move(made->front()), std::nullopt, std::nullopt};
     if (!has_rotation) return grids;
     if (made->size() != 2 || made->back().description().moment != level2::Moment::azsh)
         return fail(ErrorCode::not_found, "--rotation needs velocities; the files have none");
     grids.shear = std::move(made->back());
     return grids;
+}
+
+// Finds the storm cells of the files. Of several volumes of one radar, the picture then shows the
+// newest, unless its product is made from all of them. Returns the newest grid of reflectivity.
+Result<PictureGrid> find_cells_of_files(FrameOptions& options, const render::Scene& scene,
+                                        FrameGrids& grids) {
+    CellInput input{options.grid, false, chosen_freezing_levels(options.scene, scene)};
+    input.grid.dealias = input.grid.storm_motion = "";
+    auto found = find_cell_scans(std::move(input));
+    if (!found) return pass_on(found);
+    auto overlay = overlay_of(found->scans);
+    if (!overlay) return pass_on(overlay);
+    grids.cells = std::move(*overlay);
+    if (!render::facts_of(scene.product).is_over_time)
+        options.grid.files = std::move(found->newest_files);
+    return std::move(found->reflectivity);
 }
 
 Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& scene) {
@@ -164,7 +199,16 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     options.grid.time = options.time;
     const render::ProductFacts& product = render::facts_of(scene.product);
     FrameGrids grids;
-    if (product.is_of_sweep || product.is_over_time) {
+    const bool is_special = product.is_of_sweep || product.is_over_time;
+    if (options.scene.overlay == render::overlay_cells) {
+        auto reflectivity = find_cells_of_files(options, scene, grids);
+        if (!reflectivity) return pass_on(reflectivity);
+        const bool is_shown = scene.moment == level2::Moment::ref && !options.rotation;
+        if (is_shown && !is_special) grids.shown = std::move(*reflectivity);
+    }
+    if (grids.shown) {
+        // The search for cells made the grid.
+    } else if (is_special) {
         auto made = product.is_of_sweep ? sweep_of_file(options.grid, scene)
                     : product.is_sum    ? PictureGrid::make_rain_total(options.grid)
                                         : PictureGrid::make_track(options.grid);
@@ -173,7 +217,8 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     } else {
         auto made = made_grids(options.grid, options.rotation);
         if (!made) return made;
-        grids = std::move(*made);
+        grids.shown = std::move(made->shown);
+        grids.shear = std::move(made->shear);
     }
     options.domain = grids.shown->name();
     return grids;
@@ -207,10 +252,8 @@ Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& sce
     if (Status fits = check_stored_derivation(options.scene, scene.product); !fits)
         return pass_on(fits);
     if (Status fits = render::check_single_grid(scene.product); !fits) return pass_on(fits);
-    if (!is_of_sweep) return stored_grid(options, scene.moment);
-    auto sweep = stored_sweep(options, scene);
-    if (!sweep) return pass_on(sweep);
-    return FrameGrids{std::move(*sweep), std::nullopt};
+    if (!is_of_sweep) return stored_grid(options, scene);
+    return stored_sweep(options, scene);
 }
 
 Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/number_list.h"
+#include "cli/picture/cell_scans.h"
 #include "cli/picture/nowcast_grids.h"
 #include "cli/picture/nowcast_text.h"
 #include "cli/picture/scene_arguments.h"
@@ -69,7 +70,14 @@ Result<render::Scene> scene_to_draw(const NowcastCommand& command) {
                     "a nowcast is a grid of reflectivity; it has no {} of {}",
                     render::product_name(scene->product), level2::moment_name(scene->moment));
     }
-    if (command.output.empty() || grid_format_of(command.output) != nullptr) return scene;
+    if (command.output.empty()) return scene;
+    if (grid_format_of(command.output) != nullptr) {
+        if (command.scene.overlay.empty()) return scene;
+        return fail(ErrorCode::bad_argument, "{}: holds data without marks; leave out --overlay",
+                    command.output);
+    }
+    if (Status fits = check_overlay_output(command.output, command.scene.overlay); !fits)
+        return pass_on(fits);
     const Status fits = check_still_output(command.output, scene->product, command.json);
     if (!fits) return pass_on(fits);
     return scene;
@@ -97,6 +105,26 @@ Status write_grid(const std::string& output, const cache::GridDescription& descr
     return grid_format_of(output)->write(real_file_system(), output, std::span(&grid, 1));
 }
 
+// Finds the storm cells of the grids, if they are to be marked. Pictures move them to their time.
+Result<std::optional<render::CellOverlay>> cells_to_mark(const NowcastCommand& command,
+                                                         const NowcastData& data,
+                                                         const render::Scene& scene) {
+    std::optional<render::CellOverlay> cells;
+    if (command.scene.overlay != render::overlay_cells || command.output.empty()) return cells;
+    const auto freezing = chosen_freezing_levels(command.scene, scene);
+    std::vector<retrieve::CellScan> scans;
+    for (std::size_t i = 0; i < data.grids.size(); ++i) {
+        auto scan = scan_grid(data.grids[i], nullptr, i > 0 ? &data.grids[i - 1] : nullptr,
+                              command.source.domain, freezing);
+        if (!scan) return pass_on(scan);
+        scans.push_back(std::move(*scan));
+    }
+    auto found = overlay_of(scans);
+    if (!found) return pass_on(found);
+    cells = std::move(*found);
+    return cells;
+}
+
 Status write_picture(const NowcastCommand& command, const std::string& output,
                      const render::StillSource& source, const render::Scene& scene) {
     const render::StillWriting writing{.format = still_format(output),
@@ -122,6 +150,9 @@ Result<std::vector<std::string>> write_nowcasts(const NowcastCommand& command,
     if (Status fitted = render::fit_to_grid({domain, latest, observed, command.scene}, scene);
         !fitted)
         return pass_on(fitted);
+    const auto cells = cells_to_mark(command, data, scene);
+    if (!cells) return pass_on(cells);
+    const render::Overlays overlays{.cells = *cells ? &**cells : nullptr};
     for (const retrieve::LeadScore& score : scores) {
         const auto moved = retrieve::nowcast(latest, data.motions, score.minutes, data.threads);
         if (!moved) return pass_on(moved);
@@ -132,7 +163,8 @@ Result<std::vector<std::string>> write_nowcasts(const NowcastCommand& command,
         const Status done =
             grid_format_of(output) != nullptr
                 ? write_grid(output, description, view)
-                : write_picture(command, output, {domain, view, description, command.scene}, scene);
+                : write_picture(command, output,
+                                {domain, view, description, command.scene, true, overlays}, scene);
         if (!done) return pass_on(done);
         written.push_back(output);
     }

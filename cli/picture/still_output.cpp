@@ -34,6 +34,12 @@ Status check_still_output(const std::string& output, render::Product product, bo
                 still_format(output).name, render::product_name(product));
 }
 
+Status check_overlay_output(const std::string& output, const std::string& overlay) {
+    if (overlay.empty() || still_format(output).encode_map == nullptr) return {};
+    return fail(ErrorCode::bad_argument, "{}: {} holds data without marks; leave out --overlay",
+                output, still_format(output).name);
+}
+
 const render::StillFormat& still_format(const std::string& output) {
     const render::StillFormat* format = render::still_format_of(output);
     return format != nullptr ? *format : render::still_formats().front();

@@ -21,6 +21,9 @@ namespace stormcellar::cli {
 [[nodiscard]] Status check_still_output(const std::string& output, render::Product product,
                                         bool json);
 
+// Refuses an overlay if the output holds a map as data. Errors: bad_argument.
+[[nodiscard]] Status check_overlay_output(const std::string& output, const std::string& overlay);
+
 // Returns the format of an output that check_still_output() has accepted.
 [[nodiscard]] const render::StillFormat& still_format(const std::string& output);
 

@@ -7,6 +7,7 @@
 #include "grid/plan/grid_effects.h"
 #include "pipeline/mosaic/mosaic_effects.h"
 #include "render/color/built_in_tables.h"
+#include "render/options/scene_options.h"
 #include "render/plan/volume_effects.h"
 #include "stormcellar/grid/cell_details.h"
 #include "stormcellar/grid/grid_spec.h"
@@ -94,6 +95,9 @@ Names engines() {
 }
 Names smoothings() {
     return {"cubic", "none"};
+}
+Names overlays_of_pictures() {
+    return {std::string(render::overlay_cells)};
 }
 Names units() {
     return row_names(render::all_units());
@@ -215,6 +219,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--theme", "THEME", Kept::nowhere, offered::themes},
     {"--units", "UNITS", Kept::nowhere, offered::units},
     {"--smooth", "HOW", Kept::nowhere, offered::smoothings},
+    {"--overlay", "WHAT", Kept::nowhere, offered::overlays_of_pictures},
     {"--geotiff", "CONTENT", Kept::nowhere, offered::tiff_contents},
     {"--panels", "MOMENTS", Kept::nowhere, offered::moments},
     {"--sun", "AZIMUTH,ELEVATION"},

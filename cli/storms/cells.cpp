@@ -8,10 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "base/number_list.h"
-#include "cli/picture/picture_grid.h"
+#include "cli/picture/cell_scans.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/output_file.h"
-#include "cli/storms/cells_input.h"
 #include "cli/storms/cells_text.h"
 
 namespace stormcellar::cli {
@@ -60,9 +59,9 @@ Result<retrieve::FreezingLevels> parse_freezing(const std::string& text) {
 
 // Returns the newest scan with its tracks.
 Result<retrieve::TrackedScan> newest_cells(const CellInput& input) {
-    const auto scans = find_cell_scans(input);
-    if (!scans) return pass_on(scans);
-    auto tracked = retrieve::track_cells(*scans);
+    const auto found = find_cell_scans(input);
+    if (!found) return pass_on(found);
+    auto tracked = retrieve::track_cells(found->scans);
     if (!tracked) return pass_on(tracked);
     return std::move(tracked->back());
 }

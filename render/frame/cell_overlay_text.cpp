@@ -25,15 +25,15 @@ void add_cell_notes(const CellOverlay& overlay, Legend& legend) {
     legend.notes.emplace_back("circles: error");
 }
 
-std::string cells_method(const CellOverlay& overlay) {
-    const retrieve::CellOptions& method = overlay.method;
+std::string cells_method(const std::optional<retrieve::FreezingLevels>& freezing,
+                         const retrieve::CellOptions& method) {
     std::string text = fmt::format(
         "echo of {:g} dBZ and more about peaks of {:g} dBZ and more, {:g} km2 and {:g} km deep",
         method.least_dbz, method.least_peak_dbz, method.least_area_km2,
         method.least_depth_m / 1000);
-    if (overlay.scan.freezing) {
+    if (freezing) {
         text += fmt::format("; MESH assumes 0 C at {:g} m, -20 C at {:g} m above sea level",
-                            overlay.scan.freezing->zero_c_m, overlay.scan.freezing->minus_20_c_m);
+                            freezing->zero_c_m, freezing->minus_20_c_m);
     }
     return text;
 }
@@ -43,7 +43,8 @@ std::string cells_sentence(const CellOverlay& overlay) {
                                      ? std::string("of one volume, so without motion and forecast")
                                      : fmt::format("followed through {} volumes", overlay.volumes);
     return fmt::format("{} at {}, {}; {}", cells_counted(overlay.scan.cells.size()),
-                       format_utc(overlay.scan.time), followed, cells_method(overlay));
+                       format_utc(overlay.scan.time), followed,
+                       cells_method(overlay.scan.freezing, overlay.method));
 }
 
 }  // namespace stormcellar::render

@@ -4,6 +4,7 @@
 // Threads   Pure functions.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "render/map/legend.h"
@@ -18,6 +19,7 @@ void add_cell_notes(const CellOverlay& overlay, Legend& legend);
 // Returns the same with the whole method, for the metadata of a picture.
 [[nodiscard]] std::string cells_sentence(const CellOverlay& overlay);
 // Returns the method alone, for the metadata of a loop.
-[[nodiscard]] std::string cells_method(const CellOverlay& overlay);
+[[nodiscard]] std::string cells_method(const std::optional<retrieve::FreezingLevels>& freezing,
+                                       const retrieve::CellOptions& method = {});
 
 }  // namespace stormcellar::render

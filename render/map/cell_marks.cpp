@@ -25,6 +25,7 @@ constexpr double error_width = 0.8;
 constexpr double tick_half = 3.2;
 constexpr double dash = 5;
 constexpr double gap = 3.5;
+constexpr double most_dashed = 20'000;  // in pixels at any scale
 constexpr double halo_room = 1;
 constexpr double label_size = 10;
 constexpr std::array error_minutes = {30, 60};
@@ -204,25 +205,37 @@ class CellPlanner {
     double seconds_late_;  // from the volume to the picture
 };
 
-// Adds the dashes of a line to the canvas's path.
-void add_dashes(Canvas& canvas, const std::vector<Point>& line, double scale, Point offset) {
-    double left_of_part = dash * scale;
-    bool is_drawn = true;
+double length_of_line(const std::vector<Point>& line) {
+    double sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+        sum += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
+    return sum;
+}
+
+// Returns the part of a line between two distances from its first point.
+std::vector<Point> part_of_line(const std::vector<Point>& line, double from, double to) {
+    std::vector<Point> part;
+    double before = 0;
     for (std::size_t i = 1; i < line.size(); ++i) {
         const double length = std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
         const Point unit = unit_between(line[i - 1], line[i]);
-        for (double at = 0; at < length;) {
-            const double end = std::min(length, at + left_of_part);
-            if (is_drawn) {
-                canvas.add_to_path({toward(line[i - 1], unit, at), toward(line[i - 1], unit, end)},
-                                   offset);
-            }
-            left_of_part -= end - at;
-            at = end;
-            if (left_of_part > 0) continue;
-            is_drawn = !is_drawn;
-            left_of_part = (is_drawn ? dash : gap) * scale;
-        }
+        const double first = std::max(from - before, 0.0);
+        const double last = std::min(to - before, length);
+        before += length;
+        if (!(first < last)) continue;
+        if (part.empty()) part.push_back(toward(line[i - 1], unit, first));
+        part.push_back(toward(line[i - 1], unit, last));
+    }
+    return part;
+}
+
+// Adds the dashes of a line to the canvas's path. A line that is longer than any picture is cut.
+void add_dashes(Canvas& canvas, const std::vector<Point>& line, double scale, Point offset) {
+    const double length = std::min(length_of_line(line), most_dashed);
+    const double period = (dash + gap) * scale;
+    for (int i = 0; i * period < length; ++i) {
+        const double end = std::min(i * period + dash * scale, length);
+        canvas.add_to_path(part_of_line(line, i * period, end), offset);
     }
 }
 

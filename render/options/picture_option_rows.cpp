@@ -102,6 +102,16 @@ constexpr std::array option_rows{
                   .used_by = by_ppi,
                   .help = "Draw glyphs of the wind over a velocity: a line for the part along the "
                           "beam, a disc for the part that one radar cannot measure"},
+    PictureOption{.option = "--overlay",
+                  .section = "picture",
+                  .key = "overlay",
+                  .value = TextValue{.field = [](To to) { return &to.options.overlay; },
+                                     .check = check_overlay,
+                                     .known = known_overlays},
+                  .used_by = by_all_but_section,
+                  .help = "Mark what was found in the volumes: {} for storm cells with their "
+                          "largest reflectivity, their tracks, and forecasts with errors. Tracks "
+                          "need several volumes. With --freezing-levels, also MESH in mm"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",
@@ -145,6 +155,7 @@ constexpr std::array option_rows{
                   .key = "freezing_levels_m",
                   .value = NumbersValue{freezing_places, set_freezing_levels},
                   .used_by = by_hail,
+                  .used_by_cells = true,
                   .help = "Heights above sea level in meters at which the air has 0 and -20 "
                           "degrees Celsius, for hail. Default: 4200,7300, an assumption for warm "
                           "days on the Great Plains"},
@@ -407,6 +418,13 @@ const PictureOption& quality_option() {
 }
 const PictureOption& storm_motion_option() {
     return row_of("storm_motion");
+}
+
+const PictureOption& overlay_option() {
+    return row_of("overlay");
+}
+const PictureOption& freezing_levels_option() {
+    return row_of("freezing_levels_m");
 }
 
 const PictureOption& colors_option() {

@@ -128,6 +128,15 @@ Status check_smoothing(const std::string& name) {
                 printable(name));
 }
 
+std::string known_overlays() {
+    return std::string(overlay_cells);
+}
+
+Status check_overlay(const std::string& name) {
+    if (name == overlay_cells) return {};
+    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", known_overlays(), printable(name));
+}
+
 bool is_color_file(const std::string& name) {
     std::string ending = std::filesystem::path(name).extension().native();
     std::transform(ending.begin(), ending.end(), ending.begin(),

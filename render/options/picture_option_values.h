@@ -38,7 +38,9 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_time_zone(const std::string& zone);
 [[nodiscard]] Status check_colors(const std::string& name);
 [[nodiscard]] Status check_smoothing(const std::string& name);
+[[nodiscard]] Status check_overlay(const std::string& name);
 // Return the known names, for help.
+[[nodiscard]] std::string known_overlays();
 [[nodiscard]] std::string known_moments();
 [[nodiscard]] std::string known_dealiasings();
 [[nodiscard]] Status check_dealiasing(const std::string& name);

@@ -112,7 +112,8 @@ struct PictureOption {
     std::string_view old_key{};
     PictureValue value{};
     ProductUse used_by{};
-    std::string_view help{};  // in it, {} or {0} and {1} are replaced by the ends of the range
+    bool used_by_cells = false;  // every product uses the option if storm cells are marked
+    std::string_view help{};     // in it, {} or {0} and {1} are replaced by the ends of the range
 
     // Returns true for an option of [loop], which sets `loop`. All other options set the scene.
     [[nodiscard]] bool is_of_loop() const { return section == "loop"; }
@@ -129,6 +130,8 @@ struct PictureOption {
 [[nodiscard]] const PictureOption& dealias_option();
 [[nodiscard]] const PictureOption& quality_option();
 [[nodiscard]] const PictureOption& storm_motion_option();
+[[nodiscard]] const PictureOption& overlay_option();
+[[nodiscard]] const PictureOption& freezing_levels_option();
 [[nodiscard]] const PictureOption& colors_option();
 [[nodiscard]] const PictureOption& width_option();
 [[nodiscard]] const PictureOption& height_option();

@@ -22,8 +22,9 @@ std::string spelled(const PictureOption& row, const SceneOptions& options) {
 }
 
 Status unused(std::string_view name, const PictureOption& row, Product product) {
-    return fail(ErrorCode::bad_argument, "{} is for {}; {} does not use it", name,
-                row.used_by.text(), product_name(product));
+    return fail(ErrorCode::bad_argument, "{} is for {}{}; {} does not use it", name,
+                row.used_by.text(), row.used_by_cells ? " and beside an overlay of cells" : "",
+                product_name(product));
 }
 
 // Checks that the product uses all options that are given. Errors: bad_argument; the message names
@@ -32,6 +33,7 @@ Status check_uses(Product product, const SceneOptions& options) {
     const auto files = product_from_name(options.file_product);
     for (const PictureOption& row : picture_options()) {
         if (row.is_used_by(product)) continue;
+        if (row.used_by_cells && options.overlay == overlay_cells) continue;
         if (contains(options.typed, row)) return unused(spelled(row, options), row, product);
         const bool was_used = files && row.is_used_by(*files);
         if (!was_used && contains(options.in_file, row)) return unused(key_of(row), row, product);
@@ -175,6 +177,14 @@ Result<Scene> scene_of(const SceneOptions& options) {
     scene.labels = !options.no_labels;
     if (auto valid = validate(scene); !valid) return pass_on(valid);
     return scene;
+}
+
+std::optional<retrieve::FreezingLevels> chosen_freezing_levels(const SceneOptions& options,
+                                                               const Scene& scene) {
+    const bool is_given = contains(options.typed, freezing_levels_option()) ||
+                          contains(options.in_file, freezing_levels_option());
+    if (!is_given && facts_of(scene.product).hail == nullptr) return std::nullopt;
+    return scene.freezing_levels;
 }
 
 std::string moment_asked(const SceneOptions& options) {

@@ -24,6 +24,8 @@
 namespace stormcellar::render {
 
 inline constexpr NumberRange thread_range{0, 1024};
+// The overlay that marks storm cells (render/map/cell_marks.h).
+inline constexpr std::string_view overlay_cells = "cells";
 
 // The form in which messages write the name of an option.
 enum class Spelling { option, parameter };  // "--tilt", "tilt"
@@ -39,6 +41,7 @@ struct SceneOptions {
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment
     std::string smooth;     // cubic or none; empty: cubic, or none for a scene file
+    std::string overlay;    // overlay_cells; empty: none
     std::string time_zone;  // IANA; empty: the zone of the machine
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
@@ -66,6 +69,11 @@ struct LoopChoices {
 // Returns the requested scene. It is valid. Errors: bad_argument; the message names the invalid
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
+
+// Returns the freezing levels for MESH of storm cells: those that are given, or those of a product
+// of hail; none if nobody chose levels.
+[[nodiscard]] std::optional<retrieve::FreezingLevels> chosen_freezing_levels(
+    const SceneOptions& options, const Scene& scene);
 
 // Returns the name of the moment, which is that of the product if it is made of one moment alone
 // and no moment is given.

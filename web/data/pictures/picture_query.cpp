@@ -53,14 +53,15 @@ Status take_parameter(const render::PictureOption& row, const std::string& name,
 }  // namespace
 
 bool is_of_frames(const render::PictureOption& option) {
-    return !option.is_of_loop() && !option.section.empty();
+    // The server draws no storm cells.
+    return !option.is_of_loop() && !option.section.empty() && &option != &render::overlay_option();
 }
 
 bool is_of_bare_maps(const render::PictureOption& option) {
     const bool is_of_page = &option == &render::width_option() ||
                             &option == &render::height_option() || option.key == "theme" ||
                             option.key == "product";
-    return option.section == "picture" && !is_of_page &&
+    return option.section == "picture" && !is_of_page && is_of_frames(option) &&
            !(option.used_by.only && !render::is_map(*option.used_by.only));
 }
 

@@ -1,0 +1,130 @@
+#include "cli/picture/cell_scans.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace stormcellar::cli {
+namespace {
+
+constexpr std::string_view grid_file_ending = ".scg";  // stormcellar/cache/grid_name.h
+
+// The grids of one time: reflectivity, and azimuthal shear if it was asked for; and their files.
+struct CellGrids {
+    std::vector<PictureGrid> grids;
+    std::vector<std::string> files;
+
+    [[nodiscard]] const PictureGrid& reflectivity() const { return grids.front(); }
+    [[nodiscard]] const PictureGrid* shear() const {
+        return grids.size() > 1 ? &grids[1] : nullptr;
+    }
+    [[nodiscard]] UtcTime time() const { return reflectivity().description().time; }
+};
+
+Result<CellGrids> grids_of_level2(const CellInput& input, std::vector<std::string> files) {
+    GridOptions options = input.grid;
+    options.files = files;
+    options.takes_moments = true;
+    options.moment = level2::moment_name(level2::Moment::ref);
+    if (input.shear)
+        options.moment += fmt::format(",{}", level2::moment_name(level2::Moment::azsh));
+    auto grids = PictureGrid::make_each(std::move(options));
+    if (!grids) return pass_on(grids);
+    return CellGrids{std::move(*grids), std::move(files)};
+}
+
+Result<CellGrids> cell_grids_of(const CellInput& input, const std::string& file) {
+    if (std::filesystem::path(file).extension() != grid_file_ending)
+        return grids_of_level2(input, {file});
+    if (input.shear) {
+        return fail(ErrorCode::bad_argument,
+                    "{}: --shear takes Level II files, because a grid of reflectivity has no "
+                    "velocities",
+                    file);
+    }
+    auto opened = PictureGrid::open(file);
+    if (!opened) return pass_on(opened);
+    if (opened->description().moment != level2::Moment::ref)
+        return fail(ErrorCode::bad_argument, "{}: holds {}, and cells need reflectivity", file,
+                    level2::moment_name(opened->description().moment));
+    CellGrids grids;
+    grids.grids.push_back(std::move(*opened));
+    grids.files = {file};
+    return grids;
+}
+
+// Makes the grids of each file. If each file is of another radar, makes one mosaic of all.
+Result<std::vector<CellGrids>> cell_grids_of_files(const CellInput& input) {
+    std::vector<CellGrids> all;
+    std::set<std::string> areas;
+    for (const std::string& file : input.grid.files) {
+        auto grids = cell_grids_of(input, file);
+        if (!grids) return pass_on(grids);
+        areas.insert(grids->reflectivity().name());
+        all.push_back(std::move(*grids));
+    }
+    if (areas.size() == 1) return all;
+    if (areas.size() < all.size()) {
+        return fail(ErrorCode::bad_argument,
+                    "cells take files of one radar, or one file of each of several radars");
+    }
+    all.clear();
+    auto mosaic = grids_of_level2(input, input.grid.files);
+    if (!mosaic) return pass_on(mosaic);
+    all.push_back(std::move(*mosaic));
+    return all;
+}
+
+}  // namespace
+
+Result<retrieve::CellScan> scan_grid(const PictureGrid& reflectivity, const PictureGrid* shear,
+                                     const PictureGrid* before, const std::string& area,
+                                     const std::optional<retrieve::FreezingLevels>& freezing) {
+    retrieve::CellFields fields{reflectivity.view(), {}, freezing};
+    if (shear != nullptr) fields.azimuthal_shear = shear->view();
+    auto scan = retrieve::find_cells(fields, reflectivity.description().time, area);
+    if (!scan) return scan;
+    if (before != nullptr) {
+        const grid::BrickView earlier = before->view();
+        const double seconds = seconds_between(before->description().time, scan->time);
+        if (seconds > 0 && *earlier.spec == *fields.reflectivity.spec) {
+            const Status guessed =
+                retrieve::guess_motions(*scan, earlier, fields.reflectivity, seconds);
+            if (!guessed) return pass_on(guessed);
+        }
+        if (Status whole = before->check_whole(); !whole) return pass_on(whole);
+    }
+    if (Status whole = reflectivity.check_whole(); !whole) return pass_on(whole);
+    return scan;
+}
+
+Result<CellScans> find_cell_scans(CellInput input) {
+    if (auto inputs = find_inputs(input.grid); !inputs) return pass_on(inputs);
+    auto grids = cell_grids_of_files(input);
+    if (!grids) return pass_on(grids);
+    std::ranges::stable_sort(*grids, {}, &CellGrids::time);
+    std::vector<retrieve::CellScan> scans;
+    for (std::size_t i = 0; i < grids->size(); ++i) {
+        const CellGrids& one = (*grids)[i];
+        const PictureGrid* const before = i > 0 ? &(*grids)[i - 1].reflectivity() : nullptr;
+        auto scan = scan_grid(one.reflectivity(), one.shear(), before, one.reflectivity().name(),
+                              input.freezing);
+        if (!scan) return pass_on(scan);
+        scans.push_back(std::move(*scan));
+    }
+    CellGrids& newest = grids->back();
+    return CellScans{std::move(scans), std::move(newest.grids.front()), std::move(newest.files)};
+}
+
+Result<render::CellOverlay> overlay_of(std::span<const retrieve::CellScan> scans) {
+    auto tracked = retrieve::track_cells(scans);
+    if (!tracked) return pass_on(tracked);
+    render::CellOverlay overlay;
+    overlay.volumes = tracked->size();
+    overlay.scan = std::move(tracked->back());
+    return overlay;
+}
+
+}  // namespace stormcellar::cli
