@@ -14,14 +14,15 @@ std::string cells_counted(std::size_t count) {
 void add_cell_notes(const CellOverlay& overlay, Legend& legend) {
     if (!legend.notes.empty()) legend.notes.back() += ";";
     legend.notes.push_back(cells_counted(overlay.scan.cells.size()) + ",");
-    legend.notes.push_back(fmt::format("peak {:g} dBZ or more,", overlay.method.least_peak_dbz));
+    legend.notes.push_back(fmt::format("peaks from {:g} dBZ", overlay.method.least_peak_dbz));
     if (overlay.volumes == 1) {
+        legend.notes.back() += ";";
         legend.notes.emplace_back("1 volume: no motion,");
         legend.notes.emplace_back("no forecast");
         return;
     }
-    legend.notes.push_back(fmt::format("in {} volumes; dashes:", overlay.volumes));
-    legend.notes.emplace_back("15, 30, 45, 60 min;");
+    legend.notes.push_back(fmt::format("over {} volumes;", overlay.volumes));
+    legend.notes.emplace_back("ticks: 15 to 60 min,");
     legend.notes.emplace_back("circles: error");
 }
 

@@ -28,6 +28,7 @@ constexpr double gap = 3.5;
 constexpr double most_dashed = 20'000;  // in pixels at any scale
 constexpr double halo_room = 1;
 constexpr double label_size = 10;
+constexpr float least_hail_mm = 5;  // smaller ice is no hail (WMO, International Cloud Atlas)
 constexpr std::array error_minutes = {30, 60};
 constexpr int error_corners = 48;
 
@@ -162,40 +163,43 @@ class CellPlanner {
         if (!is_in_picture(at)) return;
         const std::string least = fmt::format("{:.0f}", cell.max_dbz);
         std::string whole = least + " dBZ";
-        if (cell.mesh_mm && *cell.mesh_mm >= 0.5F)
+        if (cell.mesh_mm.value_or(0) >= least_hail_mm)
             whole += fmt::format(", {:.0f} mm", *cell.mesh_mm);
+        const MarkTextLook look{scaled(label_size), true, lines_.shades->text, scaled(1)};
         for (const std::string& text : {whole, least}) {
-            for (const Point& corner :
-                 corners_for(fonts.width(text, scaled(label_size), true), at, mark)) {
-                mark.label = claim_text(places_, fonts, text, corner,
-                                        {scaled(label_size), true, lines_.shades->text, scaled(1)});
+            const double width = fonts.width(text, look.size, look.bold);
+            for (const Point& corner : corners_for(width, look.size, mark)) {
+                mark.label = claim_text(places_, fonts, text, corner, look);
                 if (mark.label) return;
             }
         }
     }
 
-    // Returns the places of a label: right, left, above and below, the least along the motion
-    // first.
-    [[nodiscard]] std::array<Point, 4> corners_for(double width, Point at,
-                                                   const CellMark& mark) const {
-        const double apart = scaled(mark.top ? 4 : ring_radius + 3);
-        const double size = scaled(label_size);
-        struct Side {
-            Point direction, corner;
-        };
-        const double level = at.y + 0.36 * size;
-        std::array<Side, 4> sides = {Side{{1, 0}, {at.x + apart, level}},
-                                     Side{{-1, 0}, {at.x - apart - width, level}},
-                                     Side{{0, -1}, {at.x - width / 2, at.y - apart - 0.1 * size}},
-                                     Side{{0, 1}, {at.x - width / 2, at.y + apart + 0.8 * size}}};
+    // Returns places of a label beside a mark: first those beside the line of motion.
+    [[nodiscard]] std::vector<Point> corners_for(double width, double size,
+                                                 const CellMark& mark) const {
+        // A label beside a short stem stays clear of the ring at the stem's foot.
+        const bool has_stem = mark.top && std::hypot(mark.top->x - mark.center.x,
+                                                     mark.top->y - mark.center.y) > 3 * size;
+        const Point at = has_stem ? *mark.top : mark.center;
+        const double apart = scaled(has_stem ? 4 : ring_radius + 3);
         const std::vector<Point>& line = mark.ahead.size() > 1 ? mark.ahead : mark.track;
         const Point along = unit_between(line.front(), line.back());
-        std::ranges::stable_sort(sides, {}, [&](const Side& side) {
-            // Rounded, so that tiny differences of the motion do not move labels between frames.
-            return std::round(2 *
-                              std::abs(side.direction.x * along.x + side.direction.y * along.y));
+        std::vector<Point> sides = {{1, 0},  {-1, 0},  {0, -1}, {0, 1},
+                                    {1, -1}, {-1, -1}, {1, 1},  {-1, 1}};
+        // Rounded, so that small changes of the motion do not move labels from frame to frame.
+        std::ranges::stable_sort(sides, {}, [&](Point side) {
+            return std::round(2 * std::abs(side.x * along.x + side.y * along.y) /
+                              std::hypot(side.x, side.y));
         });
-        return {sides[0].corner, sides[1].corner, sides[2].corner, sides[3].corner};
+        for (Point& side : sides) {
+            const double share = side.x != 0 && side.y != 0 ? 0.8 : 1;
+            const double x = at.x + side.x * share * apart;
+            const double before = side.x > 0 ? 0 : side.x < 0 ? width : width / 2;
+            const double below = side.y > 0 ? 0.85 * size : side.y < 0 ? -0.35 * size : 0.36 * size;
+            side = {x - before, at.y + side.y * share * apart + below};
+        }
+        return sides;
     }
 
     const MapLines& lines_;
