@@ -14,14 +14,17 @@
 #include "cli/loop/files_loop.h"
 #include "cli/loop/loop_encoding.h"
 #include "cli/loop/loop_report.h"
+#include "cli/loop/swept_cells.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/picture_grid.h"
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/raw_volume.h"
+#include "cli/picture/stored_cells.h"
 #include "cli/picture/swept_volume.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
 #include "pipeline/drop/archive_volumes.h"
+#include "render/frame/cell_overlay_text.h"
 #include "render/frame/frame_cache.h"
 #include "render/frame/picture_metadata.h"
 #include "stormcellar/catalog/catalog.h"
@@ -41,6 +44,7 @@ struct RawSource {
 struct SweepSources {
     std::optional<catalog::CatalogReader> catalog;  // for reading volumes that the catalog has
     std::vector<RawSource> volumes;                 // ascending in time
+    std::optional<cache::StoreReader> store;        // has grids of the volumes of a domain
 };
 
 // One frame: a sweep of a volume.
@@ -61,6 +65,9 @@ struct SweepDrawing {
     std::optional<SweptVolume> volume;
     std::optional<grid::GridSpec> plane;  // plane of the first frame
     render::FrameCache cache;
+    // Storm cells to mark, of the grids of the cache or of the volumes; none if not asked for.
+    std::optional<StoredCells> stored_cells;
+    std::optional<SweptCells> swept_cells;
 };
 
 Status check_sweep_loop(const LoopOptions& options) {
@@ -125,6 +132,7 @@ Result<SweepSources> sources_of_domain(const LoopOptions& options) {
     auto catalog = catalog::CatalogReader::open(place.directory);
     if (!catalog) return pass_on(catalog);
     sources.catalog.emplace(std::move(*catalog));
+    sources.store = *store;
     for (const cache::StoreEntry& entry : *grids) {
         sources.volumes.push_back(
             {entry.path, [entry](const catalog::CatalogReader& reader) -> Result<RawVolume> {
@@ -236,6 +244,30 @@ std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic
     return frames;
 }
 
+void prepare_cells(const SweepSources& sources, const LoopOptions& options, SweepDrawing& drawing) {
+    if (options.scene.overlay != render::overlay_cells) return;
+    const auto freezing = chosen_freezing_levels(options.scene, drawing.scene);
+    if (sources.store) {
+        drawing.stored_cells.emplace(*sources.store, options.domain, freezing);
+    } else {
+        drawing.swept_cells.emplace(drawing.grid, freezing);
+    }
+}
+
+// Returns the storm cells to mark in a frame, or none.
+Result<std::optional<render::CellOverlay>> cells_of_frame(const SweepSources& sources,
+                                                          const SweepFrame& frame,
+                                                          SweepDrawing& drawing) {
+    std::optional<render::CellOverlay> cells;
+    if (!drawing.stored_cells && !drawing.swept_cells) return cells;
+    auto found = drawing.stored_cells
+                     ? drawing.stored_cells->at(frame.time)
+                     : drawing.swept_cells->of(frame.volume, sources.volumes[frame.volume].path);
+    if (!found) return pass_on(found);
+    cells = std::move(*found);
+    return cells;
+}
+
 Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const LoopOptions& options,
                   SweepDrawing& drawing, Encoding& encoding, LoopReport& report) {
     const auto start = steady_now();
@@ -243,12 +275,15 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
     if (!volume) return pass_on(volume);
     const auto sweep = sweep_of(**volume, frame, drawing);
     if (!sweep) return pass_on(sweep);
+    const auto cells = cells_of_frame(sources, frame, drawing);
+    if (!cells) return pass_on(cells);
     report.read_s += seconds_since(start);
     const auto read = steady_now();
     const auto facts =
         frame_facts_of(options.domain, sweep->description(), options.scene.time_zone);
     auto picture = render::render_frame(sweep->view(), facts, drawing.scene,
-                                        render::thread_count(options.scene), &drawing.cache);
+                                        render::thread_count(options.scene), &drawing.cache,
+                                        {.cells = *cells ? &**cells : nullptr});
     if (!picture) return pass_on(picture);
     report.render_s += seconds_since(read);
     if (report.frames == 0) report.from = report.to = frame.time;
@@ -271,9 +306,11 @@ Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>&
                                     render::thread_count(options.scene), drawing.scene);
     if (!error) return pass_on(error);
     const auto [from, to] = std::ranges::minmax(frames, {}, &SweepFrame::time);
+    render::PictureFacts told{options.domain, from.time, to.time, frames.size(), "", *error};
+    if (options.scene.overlay == render::overlay_cells)
+        told.cells = render::cells_method(chosen_freezing_levels(options.scene, drawing.scene));
     options.animation.metadata = render::metadata_of(
-        {options.domain, from.time, to.time, frames.size(), "", *error}, sweep->description(),
-        render::scene_shown(sweep->view(), drawing.scene));
+        told, sweep->description(), render::scene_shown(sweep->view(), drawing.scene));
     return {};
 }
 
@@ -342,6 +379,7 @@ int run_sweep_loop(LoopOptions options, const render::Scene& scene, Interrupt& i
     }
     if (auto described = describe_loop(*sources, frames, drawing, options); !described)
         return report_error(described.error());
+    prepare_cells(*sources, options, drawing);
     if (auto made = write_loop(*sources, frames, options, interrupt.flag(), drawing, report); !made)
         return report_error(made.error());
     if (report.interrupted) return end_interrupted(interrupt);

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "stormcellar/grid/site_frame.h"
+#include "tests/testing/data.h"
+#include "tests/web/pictured_storm.h"
 #include "tests/web/served_storms.h"
 
 namespace stormcellar::web {
@@ -140,6 +143,48 @@ TEST_F(ApiStorms, RotationHasPlaceLayerAndKnownError) {
     EXPECT_NEAR(low["geometry"]["coordinates"][0], -97.278 + 10.5 / 90.9, 1e-3);
     EXPECT_EQ(all["features"][1]["properties"]["layer"], "mid");
     EXPECT_FALSE(all.contains("reason"));
+}
+
+// The tornado of 3 May 1999 is at 35.25 N 97.69 W in the lowest sweep (docs/velocity.md: a maximum
+// is within 1.5 km of the tornado). Grids of 2 km, as here, have their maximum in the middle of a
+// cell, up to 1.4 km from the maximum of the gates.
+TEST(RotationOfMoore, IsTheStrongestInRealGridsOfTheIngestor) {
+    STORMCELLAR_NEED_DATA();
+    const PicturedStorm storm("KTLX19990503_235621.gz", {},
+                              {level2::Moment::ref, level2::Moment::azsh});
+    const auto scans = std::make_shared<StormScans>(storm.grids());
+    const auto kept = std::make_shared<KeptAnswers>(std::uint64_t{1} << 20);
+    ApiDoor door(ApiSources{.grids = storm.grids(),
+                            .catalog = {},
+                            .kept = kept,
+                            .storms = std::make_shared<const StormAnswers>(scans, kept)});
+    const json all = json::parse(body_of(asked(door, "/api/v1/rotation")));
+    const json cells = json::parse(body_of(asked(door, "/api/v1/cells")));
+    const grid::SiteFrame tornado(35.25, -97.69);
+    const auto from_tornado_m = [&](const json& feature) {
+        const json& at = feature["geometry"]["coordinates"];
+        return tornado.to_polar({at[1], at[0]}).arc_m;
+    };
+    int layers_found = 0;
+    for (const char* layer : {"low", "mid"}) {
+        const auto first = std::ranges::find_if(all["features"], [&](const json& feature) {
+            return feature["properties"]["layer"] == layer;
+        });
+        ASSERT_NE(first, all["features"].end()) << layer;
+        layers_found += from_tornado_m(*first) < 1500 + 1415 ? 1 : 0;
+        EXPECT_EQ((*first)["properties"]["time"], PicturedStorm::time);
+        if (layer == std::string("low")) {
+            EXPECT_GT((*first)["properties"]["azimuthal_shear_per_s"], 0.01);
+            EXPECT_LT(from_tornado_m(*first), 1500 + 1415) << *first;
+        }
+    }
+    EXPECT_GE(layers_found, 1);
+    // The cell of the tornado has the shear.
+    const bool has_shear = std::ranges::any_of(cells["features"], [&](const json& feature) {
+        return from_tornado_m(feature) < 15e3 &&
+               feature["properties"].value("azimuthal_shear_per_s", 0.0) > 0.01;
+    });
+    EXPECT_TRUE(has_shear);
 }
 
 TEST_F(ApiStorms, RotationWithoutShearSaysWhy) {

@@ -15,9 +15,9 @@
 namespace stormcellar::web {
 namespace {
 
-pipeline::IngestOptions options_of_storm() {
+pipeline::IngestOptions options_of_storm(std::vector<level2::Moment> moments) {
     pipeline::IngestOptions options;
-    options.moments = {level2::Moment::ref, level2::Moment::vel};
+    options.moments = std::move(moments);
     options.spacing_m = 2000;
     options.nx = options.ny = 230;
     return options;
@@ -35,7 +35,8 @@ render::Image decoded_png(const std::string& bytes) {
     return image;
 }
 
-PicturedStorm::PicturedStorm(const std::string& name, std::chrono::hours age) {
+PicturedStorm::PicturedStorm(const std::string& name, std::chrono::hours age,
+                             std::vector<level2::Moment> moments) {
     std::filesystem::create_directory(directory_ / "drop");
     file_ = directory_ / "drop" / name;
     std::filesystem::copy_file(*testing::data_directory() / "volumes/KTLX19990503_235621.gz",
@@ -46,7 +47,7 @@ PicturedStorm::PicturedStorm(const std::string& name, std::chrono::hours age) {
     auto catalog = catalog::CatalogWriter::open(directory_ / "catalog");
     auto store = cache::StoreWriter::open(real_file_system(), directory_ / "cache", true);
     EXPECT_TRUE(catalog && store);
-    pipeline::Ingestor ingestor(*catalog, *store, options_of_storm());
+    pipeline::Ingestor ingestor(*catalog, *store, options_of_storm(std::move(moments)));
     const auto outcome = ingestor.ingest(file_, true);
     EXPECT_TRUE(outcome) << outcome.error().message;
     auto grids = Grids::open({.cache = directory_ / "cache", .most_open = 8});

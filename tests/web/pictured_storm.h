@@ -24,9 +24,11 @@ namespace stormcellar::web {
 // The domain KTLX with grids of REF and VEL, 2 km apart; the catalog names the file.
 class PicturedStorm {
   public:
-    // The name of the file, and how long ago it was written.
+    // The name of the file, how long ago it was written, and its moments in the cache.
     explicit PicturedStorm(const std::string& name = "KTLX19990503_235621.gz",
-                           std::chrono::hours age = {});
+                           std::chrono::hours age = {},
+                           std::vector<level2::Moment> moments = {level2::Moment::ref,
+                                                                  level2::Moment::vel});
 
     [[nodiscard]] const std::shared_ptr<Grids>& grids() const { return grids_; }
     [[nodiscard]] std::shared_ptr<const OpenGrid> grid(level2::Moment moment) const;

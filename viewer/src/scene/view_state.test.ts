@@ -53,6 +53,8 @@ test('the command draws the same view', () => {
         commandOf(state, 796, 532, ''),
         'stormcellar frame KTLX --moment REF --azimuth 180 --tilt 60 --zoom 1 --field-of-view 40 --exaggeration 5 --opacity 1 --light none --width 796 --height 532 -o KTLX.png',
     );
+    const withCells = { ...state, layers: { ...state.layers, hasCells: true } };
+    assert(commandOf(withCells, 796, 532, '').includes('--light none --overlay cells --width'));
     const ofFile = commandOf({ ...state, time: '1999-05-03T23:56:21Z' }, 796, 532, '', 'KTLX19990503_235621.gz');
     assert(ofFile.startsWith('stormcellar frame KTLX19990503_235621.gz --moment REF --azimuth'), ofFile);
     const command = commandOf({ ...chosen, domain: 'KLBB' }, 796, 532, 'safe-velocity');

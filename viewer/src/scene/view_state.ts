@@ -222,6 +222,7 @@ export function commandOf(
     words.push(...(product ?? cameraWords(state)));
     if (!product && state.layers.hasRotation) words.push('--rotation');
     if (product?.includes('ppi') && state.layers.hasGlyphs && isVelocity(moment)) words.push('--glyphs');
+    if (state.layers.hasCells && !product?.includes('section')) words.push('--overlay', 'cells');
     if (colors) words.push('--colors', colors);
     if (namesOf(state.units)) words.push('--units', namesOf(state.units));
     words.push('--width', String(width), '--height', String(height), '-o', `${state.domain}.png`);
