@@ -138,6 +138,7 @@ const std::map<std::string, std::string> homes_of_headers = {
     {"level2/sweep_depot", "decode"},
     {"render/frame_facts", "view"},
     {"render/integration", "view"},
+    {"render/overlays", "view"},
 };
 
 // Returns the paths that a text includes in quotes, as they are written.
