@@ -109,9 +109,11 @@ constexpr std::array option_rows{
                                      .check = check_overlay,
                                      .known = known_overlays},
                   .used_by = by_all_but_section,
-                  .help = "Mark what was found in the volumes: {} for storm cells with their "
-                          "largest reflectivity, their tracks, and forecasts with errors. Tracks "
-                          "need several volumes. With --freezing-levels, also MESH in mm"},
+                  .help =
+                      "Mark what was found: {} for storm cells with their largest reflectivity, "
+                      "their tracks, and forecasts with errors. Tracks need several volumes: "
+                      "files of one radar, or a domain. With --freezing-levels, labels also "
+                      "have MESH in mm"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",
