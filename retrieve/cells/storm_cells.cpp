@@ -70,6 +70,8 @@ Status guess_motions(CellScan& scan, const grid::BrickView& before, const grid::
                      double seconds) {
     if (before.spec == nullptr || after.spec == nullptr || scan.spec != *after.spec)
         return fail(ErrorCode::bad_argument, "the cells are not of the later grid");
+    const bool is_one_grid = *before.spec == *after.spec;
+    if (scan.cells.empty() && is_one_grid && seconds > 0) return {};  // spares the estimate
     const auto field = grid::estimate_motion(before, after, seconds);
     if (!field) return tl::unexpected(field.error());
     if (!*field) return {};

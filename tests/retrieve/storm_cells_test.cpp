@@ -248,6 +248,7 @@ TEST(StormCells, BadArgumentsAreErrors) {
     CellScan scan = *find_cells({bricks.view(), {}, {}}, noon, "KTLX");
     EXPECT_FALSE(guess_motions(scan, bricks.view(), other.view(), 300));
     EXPECT_FALSE(guess_motions(scan, bricks.view(), bricks.view(), 0));
+    EXPECT_FALSE(guess_motions(scan, other.view(), bricks.view(), 300));
     EXPECT_TRUE(guess_motions(scan, bricks.view(), bricks.view(), 300));  // too little echo
 }
 
