@@ -199,6 +199,8 @@ Guides guides_of_pictures() {
           {"stormcellar frame KTLX19990503_235621.gz --product ppi --moment VEL --elevation 0.5 "
            "-o tilt.png",
            "Draw the velocity of the lowest sweep, gate by gate."},
+          {"stormcellar frame KTLX --cache CACHE --product composite --overlay cells -o cells.png",
+           "Mark the storm cells of the last hour with tracks and forecasts."},
           {"stormcellar frame KTLX --cache CACHE --probe-at 35.33,-97.5",
            "Print the value at a place."}},
          {"--output", "--cache", "--time", "--product", "--moment", "--colors", "--scene",
