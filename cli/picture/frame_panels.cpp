@@ -56,9 +56,10 @@ int run_panels(FrameOptions& options, SteadyTime start) {
     if (still_format(options.output).encode_picture == nullptr) {
         return report_error(
             {ErrorCode::bad_argument,
-             fmt::format("{}: GeoTIFF and KMZ hold a map of one moment; give --moment instead of "
-                         "--panels, or name a picture such as panels.png",
-                         options.output)});
+             fmt::format(
+                 "{}: GeoTIFF, netCDF and KMZ hold a map of one moment; give --moment instead of "
+                 "--panels, or name a picture such as panels.png",
+                 options.output)});
     }
     if (const Status fine = check_frame_output(options, panels->front().scene.product); !fine)
         return report_error(fine.error());

@@ -52,7 +52,8 @@ Status write_still(const std::string& output, std::span<const std::byte> bytes) 
 std::string still_help() {
     return fmt::format(
         "The picture to write, as {}, or - for a PNG on standard output (-.webp for another "
-        "format). GeoTIFF and KMZ hold a map without labels, for GIS and for globes",
+        "format). GeoTIFF, netCDF and KMZ hold a map without labels, for GIS, for programs and for "
+        "globes",
         render::known_still_formats());
 }
 

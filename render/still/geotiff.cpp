@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "render/image/xmp.h"
+#include "render/still/map_attributes.h"
 #include "render/still/map_raster.h"
 #include "render/still/still_format.h"
 #include "render/still/tiff_file.h"
@@ -101,36 +102,6 @@ void place_raster(const grid::GridSpec& spec, TiffFacts& facts) {
     }
     facts.pixel_size = {spec.spacing_m, spec.spacing_m};
     facts.top_left = {spec.x_m(0) - spec.spacing_m / 2, spec.y_m(spec.ny - 1) + spec.spacing_m / 2};
-}
-
-// A class of pixels in the raster of states: a state of cells, or tops that may be higher.
-struct StateClass {
-    std::uint8_t code = 0;
-    std::string_view name = {};
-    std::array<std::uint8_t, 3> color = {};
-};
-constexpr std::uint8_t at_least_code = 4;
-constexpr std::array all_state_classes{
-    StateClass{0, "not seen", {96, 100, 108}},
-    StateClass{1, "no echo", {232, 236, 242}},
-    StateClass{2, "range folded", {119, 0, 125}},
-    StateClass{3, "value", {47, 196, 98}},
-    StateClass{at_least_code, "value or more", {255, 160, 42}},
-    StateClass{5, "ambiguous", {187, 128, 190}},
-};
-static_assert(all_state_classes.back().code ==
-              static_cast<std::uint8_t>(grid::CellStatus::ambiguous));
-
-// Returns the classes of a moment's pixels. Their codes count up from 0.
-std::span<const StateClass> state_classes(level2::Moment moment) {
-    const bool is_derived = level2::facts_of(moment).is_derived;
-    return std::span(all_state_classes).first(all_state_classes.size() - (is_derived ? 0 : 1));
-}
-
-std::uint8_t state_of(const FlatField& field, std::size_t place) {
-    const bool at_least = !field.at_least.empty() && field.at_least[place] != 0 &&
-                          field.status[place] == grid::CellStatus::value;
-    return at_least ? at_least_code : static_cast<std::uint8_t>(field.status[place]);
 }
 
 std::string states_text(level2::Moment moment) {

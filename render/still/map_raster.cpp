@@ -9,7 +9,7 @@ namespace stormcellar::render {
 Result<FlatField> still_field(const StillMap& map, int threads) {
     if (!is_map(map.scene.product)) {
         return fail(ErrorCode::bad_argument,
-                    "{} is no map; GeoTIFF and KMZ hold products that are maps, such as {}",
+                    "{} is no map; GeoTIFF, netCDF and KMZ hold products that are maps, such as {}",
                     product_name(map.scene.product), product_name(Product::composite));
     }
     if (auto valid = check_frame(map.view, map.facts, map.scene); !valid) return pass_on(valid);

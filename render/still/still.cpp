@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 1> png_endings{".png"};
 constexpr std::array<std::string_view, 2> jpeg_endings{".jpg", ".jpeg"};
 constexpr std::array<std::string_view, 1> webp_endings{".webp"};
 constexpr std::array<std::string_view, 2> tiff_endings{".tif", ".tiff"};
+constexpr std::array<std::string_view, 2> netcdf_endings{".nc", ".nc4"};
 constexpr std::array<std::string_view, 1> kmz_endings{".kmz"};
 
 constexpr std::array formats{
@@ -25,6 +26,7 @@ constexpr std::array formats{
     StillFormat{"JPEG", jpeg_endings, "image/jpeg", encode_jpeg, nullptr},
     StillFormat{"WebP", webp_endings, "image/webp", encode_webp, nullptr},
     StillFormat{"GeoTIFF", tiff_endings, "image/tiff", nullptr, encode_geotiff},
+    StillFormat{"netCDF", netcdf_endings, "application/x-netcdf", nullptr, encode_netcdf},
     StillFormat{"KMZ", kmz_endings, "application/vnd.google-earth.kmz", nullptr, encode_kmz},
 };
 

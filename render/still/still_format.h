@@ -13,6 +13,8 @@ namespace stormcellar::render {
                                                          const StillOptions& options);
 [[nodiscard]] Result<std::vector<std::byte>> encode_geotiff(const StillMap& map,
                                                             const StillOptions& options);
+[[nodiscard]] Result<std::vector<std::byte>> encode_netcdf(const StillMap& map,
+                                                           const StillOptions& options);
 [[nodiscard]] Result<std::vector<std::byte>> encode_kmz(const StillMap& map,
                                                         const StillOptions& options);
 

@@ -112,8 +112,9 @@ TEST_F(Frame, PanelsOfOneMomentAreNamedOnceAndHaveNoProbe) {
     // 2026-11-26: the message about the first error advised a product that the program then
     // refused.
     EXPECT_EQ(run("--domain KBGM --panels REF -o " + out("b.tif")), exit_bad_usage);
-    EXPECT_THAT(messages_, ::testing::HasSubstr("GeoTIFF and KMZ hold a map of one moment; give "
-                                                "--moment instead of --panels"));
+    EXPECT_THAT(messages_,
+                ::testing::HasSubstr("GeoTIFF, netCDF and KMZ hold a map of one moment; give "
+                                     "--moment instead of --panels"));
     EXPECT_THAT(messages_, ::testing::Not(::testing::HasSubstr("--product composite")));
     EXPECT_EQ(run(panels + "REF,RHO"), exit_nothing_matched);
     EXPECT_THAT(messages_, ::testing::HasSubstr("there is no grid of RHO"));

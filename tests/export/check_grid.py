@@ -284,6 +284,16 @@ def check_maps(program, level2_file, path, options):
         # Pictures use grids as stored in the cache: reflectivity in steps of half a decibel.
         assert np.nanmax(np.abs(found - highest)) <= 0.2501
         assert np.isfinite(found).sum() > 0
+        fields = path + ".map.nc"
+        subprocess.run([program, "frame", level2_file, "--product", "composite", "-o", fields,
+                        *options], check=True, stderr=subprocess.DEVNULL)
+        with xarray.open_dataset(fields) as field:
+            assert field["composite"].dims[1:] == (rows, columns)
+            written = field["composite"].isel(time=0).values[::-1]
+            assert np.array_equal(written, found, equal_nan=True)
+            assert np.array_equal(field["status"].isel(time=0).values[::-1] == 3,
+                                  np.isfinite(found))
+            assert np.array_equal(field[columns], dataset[columns])
         half = abs(step_x) / 2
         assert abs(west + half - float(dataset[columns][0])) < 1e-6 * half
         assert abs(north - half - float(dataset[rows][-1])) < 1e-6 * half

@@ -303,7 +303,7 @@ struct StormMap {
 TEST(StillMaps, ProductsThatAreNoMapsAreRefused) {
     StormMap map(small_spec(16, 4));
     map.scene.product = Product::volume;
-    for (const char* name : {"a.tif", "a.kmz"}) {
+    for (const char* name : {"a.tif", "a.nc", "a.kmz"}) {
         const auto made = map.encoded(name);
         ASSERT_FALSE(made);
         EXPECT_EQ(made.error().code, ErrorCode::bad_argument);
@@ -323,7 +323,7 @@ TEST(StillMaps, AGridThatHoldsAPoleIsNoKmz) {
 
 TEST(StillMaps, TheSameMapGivesTheSameBytesForAnyNumberOfThreads) {
     const StormMap map(small_spec(300, 4));
-    for (const char* name : {"a.tif", "a.kmz"}) {
+    for (const char* name : {"a.tif", "a.nc", "a.kmz"}) {
         const auto first = map.encoded(name);
         ASSERT_TRUE(first);
         EXPECT_GT(first->size(), 1000U);

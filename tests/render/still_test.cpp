@@ -62,7 +62,8 @@ TEST(Still, TheEndingOfTheNameIsTheFormat) {
     EXPECT_EQ(still_format_of("a.bmp"), nullptr);
     EXPECT_EQ(still_format_of("png"), nullptr);
     EXPECT_EQ(known_still_formats(),
-              "PNG (.png), JPEG (.jpg, .jpeg), WebP (.webp), GeoTIFF (.tif, .tiff) or KMZ (.kmz)");
+              "PNG (.png), JPEG (.jpg, .jpeg), WebP (.webp), GeoTIFF (.tif, .tiff), netCDF (.nc, "
+              ".nc4) or KMZ (.kmz)");
     for (const StillFormat& format : still_formats())
         EXPECT_NE(format.encode_picture == nullptr, format.encode_map == nullptr) << format.name;
 }

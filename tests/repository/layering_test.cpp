@@ -35,7 +35,7 @@ const std::map<std::string, Rooms> allowed = {
     {"retrieve", {"base", "accuracy", "grid", "level2"}},
     {"capi", {"base", "grid", "level2", "retrieve"}},
     {"cache", {"base", "grid", "level2"}},
-    {"render", {"base", "accuracy", "grid", "cache", "level2", "retrieve"}},
+    {"render", {"base", "accuracy", "export", "grid", "cache", "level2", "retrieve"}},
     {"synth", {"accuracy", "archive", "base", "level2", "grid"}},
     {"export", {"base", "level2", "grid", "retrieve"}},
     {"pipeline", {"base", "accuracy", "archive", "level2", "catalog", "grid", "cache", "retrieve"}},

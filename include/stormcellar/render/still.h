@@ -7,6 +7,7 @@
 //   WebP     lossless; alpha is kept; metadata as XMP
 // Formats of maps take a 2D product of a grid, without the map and the labels around it:
 //   GeoTIFF  the values of the cells in the grid's own projection: a cloud-optimized file for GIS
+//   netCDF   the values and states of the cells, in the same projection, as CF-1.8
 //   KMZ      the map's colors over latitude and longitude, with a legend, for Google Earth
 // Each format has one row in a registry. A writer of stills chooses the format by the name of the
 // file; help and messages list the registry.

@@ -122,7 +122,8 @@ Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,
     const std::string list = parameter_text(query, panels_parameter);
     style.has_panels = !list.empty();
     if (style.has_panels && style.format->encode_picture == nullptr) {
-        return fail(ErrorCode::bad_argument, "panels make a picture; GeoTIFF and KMZ hold one map");
+        return fail(ErrorCode::bad_argument,
+                    "panels make a picture; GeoTIFF, netCDF and KMZ hold one map");
     }
     auto panels = panels_of_frame(style, list);
     if (!panels) return pass_on(panels);

@@ -1,0 +1,69 @@
+// Writes netCDF: a map as a variable (time, y, x) in the grid's own projection, with the states of
+// its columns. A cell is a column of the grid, so nothing is resampled.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "export/map_netcdf.h"
+#include "render/still/map_attributes.h"
+#include "render/still/map_raster.h"
+#include "render/still/still_format.h"
+
+namespace stormcellar::render {
+namespace {
+
+// Returns the name of an attribute for a keyword of metadata: "Hail error" gives "hail_error".
+std::string attribute_name(std::string_view keyword) {
+    std::string name;
+    for (const char c : keyword) {
+        const bool is_letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
+        name += is_letter ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+    }
+    return name;
+}
+
+netcdf::CfAttributes file_attributes(const StillMap& map, const StillOptions& options) {
+    netcdf::CfAttributes attributes;
+    for (const auto& [keyword, text] : options.metadata)
+        if (keyword != "Units") attributes.emplace_back(attribute_name(keyword), text);
+    const auto add = [&](const char* name, const std::string& text) {
+        if (!text.empty()) attributes.emplace_back(name, text);
+    };
+    add("source", "weather radar Level II volumes");
+    add("volume", map.facts.partial ? "partial" : "complete");
+    add("quality", map.facts.quality);
+    add("dealiasing", map.facts.dealiasing);
+    add("nowcast", map.facts.nowcast);
+    add("nowcast_score", map.facts.nowcast_score);
+    return attributes;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> encode_netcdf(const StillMap& map, const StillOptions& options) {
+    const auto field = still_field(map, options.threads);
+    if (!field) return pass_on(field);
+    std::vector<float> values = field->values;
+    std::vector<signed char> states;
+    for (std::size_t place = 0; place < values.size(); ++place) {
+        if (field->status[place] != grid::CellStatus::value) values[place] = std::nanf("");
+        states.push_back(static_cast<signed char>(state_of(*field, place)));
+    }
+    std::vector<netcdf::MapFlag> flags;
+    for (const StateClass& state : state_classes(map.scene.moment)) {
+        if (may_have(map.scene.product, state))
+            flags.push_back({static_cast<signed char>(state.code), state_word(state)});
+    }
+    return netcdf::map_netcdf_bytes({.spec = *map.view.spec,
+                                     .time = map.facts.time,
+                                     .since = map.facts.since,
+                                     .name = map_variable(map.scene.product),
+                                     .attributes = map_attributes(map.scene, map.facts),
+                                     .values = values,
+                                     .states = states,
+                                     .flags = std::move(flags),
+                                     .state_attributes = map_state_attributes(map.scene),
+                                     .file_attributes = file_attributes(map, options)});
+}
+
+}  // namespace stormcellar::render
