@@ -141,6 +141,10 @@ Run set_up_frame(CLI::App& frame) {
                      "Draw a domain's newest grid at or before this time, in UTC or relative as "
                      "-1h. Default: the latest grid. With files, it is the time of the grid, as "
                      "for stormcellar grid");
+    frame.add_option("--hours", options->hours,
+                     "Length of a rain-total in hours, such as 1, 3 or 24. The total ends at "
+                     "--time, or else with the newest volume; minutes without volumes are counted "
+                     "as not seen. Default: from the first to the last file. A domain needs it");
     frame.add_option("-o,--output", options->output,
                      still_help() + ". It may be left out with --probe and --probe-at");
     frame.add_option(

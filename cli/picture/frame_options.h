@@ -1,6 +1,7 @@
 // cli/picture/frame_options.h -- the command line of `frame`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct FrameOptions {
     PlaceOption catalog{Directory::catalog, {}, {}};  // finds the raw volume of a ppi of a domain
     GridOptions grid;                                 // for a grid made from files
     std::string time;                                 // empty: the latest
+    std::optional<double> hours = {};                 // length of a rain total
     std::string output;                               // empty: no picture, only a probe
     std::string panels;    // moments of a picture with several panels; empty: one panel
     std::string probe;     // "X,Y"

@@ -5,6 +5,7 @@
 #include "base/printable.h"
 #include "cli/picture/cell_scans.h"
 #include "cli/picture/picture.h"
+#include "cli/picture/rain_sources.h"
 #include "cli/picture/raw_volume.h"
 #include "cli/picture/stored_cells.h"
 #include "cli/shared/cache_domain.h"
@@ -193,10 +194,33 @@ Result<PictureGrid> find_cells_of_files(FrameOptions& options, const render::Sce
     return std::move(found->reflectivity);
 }
 
+// Returns the time that a rain total covers. Errors: bad_argument for an invalid time.
+Result<RainChoice> rain_choice(const FrameOptions& options) {
+    const auto until = until_of(options);
+    if (!until) return pass_on(until);
+    return RainChoice{options.hours, *until, render::thread_count(options.scene)};
+}
+
+// Returns the rain total of a domain's grids.
+Result<FrameGrids> stored_rain(FrameOptions& options) {
+    if (Status none = refuse_grid_options(options); !none) return pass_on(none);
+    const auto rain = rain_choice(options);
+    if (!rain) return pass_on(rain);
+    const auto store = open_store(options);
+    if (!store) return pass_on(store);
+    auto total = rain_total_of_domain(*store, options.domain, *rain);
+    if (!total) return pass_on(total);
+    FrameGrids grids;
+    grids.shown = std::move(*total);
+    return grids;
+}
+
 Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& scene) {
     take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
+    const auto rain = rain_choice(options);
+    if (!rain) return pass_on(rain);
     const render::ProductFacts& product = render::facts_of(scene.product);
     FrameGrids grids;
     const bool is_special = product.is_of_sweep || product.is_over_time;
@@ -210,7 +234,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
         // The search for cells made the grid.
     } else if (is_special) {
         auto made = product.is_of_sweep ? sweep_of_file(options.grid, scene)
-                    : product.is_sum    ? PictureGrid::make_rain_total(options.grid)
+                    : product.is_sum    ? rain_total_of_files(options.grid, *rain)
                                         : PictureGrid::make_track(options.grid);
         if (!made) return pass_on(made);
         grids.shown = std::move(*made);
@@ -243,6 +267,9 @@ Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& sce
                     "--rotation is for a volume of another moment than AZSH");
     }
     const bool is_of_sweep = render::facts_of(scene.product).is_of_sweep;
+    const bool is_sum = render::facts_of(scene.product).is_sum;
+    if (options.hours && !is_sum)
+        return fail(ErrorCode::bad_argument, "--hours is the length of a rain-total");
     if (!options.catalog.directory.empty() && (!is_of_sweep || !options.grid.files.empty())) {
         return fail(ErrorCode::bad_argument,
                     "--catalog says where the raw file of a ppi of a domain is; nothing else needs "
@@ -251,6 +278,9 @@ Result<FrameGrids> grid_of_frame(FrameOptions& options, const render::Scene& sce
     if (!options.grid.files.empty()) return grid_of_files(options, scene);
     if (Status fits = check_stored_derivation(options.scene, scene.product); !fits)
         return pass_on(fits);
+    if (is_sum && options.hours) return stored_rain(options);
+    if (is_sum)
+        return fail(ErrorCode::bad_argument, "a rain-total of a domain needs --hours, as in 3");
     if (Status fits = render::check_single_grid(scene.product); !fits) return pass_on(fits);
     if (!is_of_sweep) return stored_grid(options, scene);
     return stored_sweep(options, scene);

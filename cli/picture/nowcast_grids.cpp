@@ -106,12 +106,6 @@ Result<std::vector<PictureGrid>> grids_of_domain(NowcastSource& source,
     return grids;
 }
 
-UtcTime middle_of(const cache::GridDescription& grid) {
-    // A mosaic's frame is for one instant.
-    if (grid.provenance.recipe != 0 || grid.end_time <= grid.start_time) return grid.time;
-    return grid.start_time + (grid.end_time - grid.start_time) / 2;
-}
-
 }  // namespace
 
 Result<std::vector<PictureGrid>> nowcast_grids(NowcastSource& source) {

@@ -33,6 +33,17 @@ struct PictureGrid::Swept {
     PlacedSweep placed;
 };
 
+namespace {
+
+// Adds the faults that the radars of the volumes report about themselves.
+void add_troubles(const std::vector<SourceVolume>& volumes, grid::Grid& grid) {
+    auto& troubles = grid.provenance.radar_troubles;
+    for (const SourceVolume& source : volumes)
+        troubles.insert(troubles.end(), source.radar_troubles.begin(), source.radar_troubles.end());
+}
+
+}  // namespace
+
 void add_picture_grid_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
     add_volume_option(app, options);
@@ -46,6 +57,11 @@ bool has_picture_grid_options(const GridOptions& options) {
            !options.extent_deg.empty() || options.spacing_km || options.spacing_deg ||
            !options.levels_km.empty() || options.volume > 0 || !options.site.station.empty() ||
            !options.site.position.empty();
+}
+
+UtcTime middle_of(const cache::GridDescription& grid) {
+    if (grid.provenance.recipe != 0 || grid.end_time <= grid.start_time) return grid.time;
+    return grid.start_time + (grid.end_time - grid.start_time) / 2;
 }
 
 PictureGrid::PictureGrid(std::unique_ptr<Stored> stored) : stored_(std::move(stored)) {}
@@ -90,20 +106,19 @@ Result<std::vector<PictureGrid>> PictureGrid::make_each(GridOptions options) {
     if (!grids) return pass_on(grids);
     std::vector<PictureGrid> made;
     for (auto& one : *grids) {
-        grid::Grid& grid = one.grid;
-        for (const SourceVolume& source : volumes) {
-            auto& troubles = grid.provenance.radar_troubles;
-            troubles.insert(troubles.end(), source.radar_troubles.begin(),
-                            source.radar_troubles.end());
-        }
-        made.push_back(PictureGrid(std::make_unique<Made>(Made{
-            fmt::format("{}", fmt::join(grid.provenance.stations, "+")),
-            cache::describe(grid),
-            grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), request->threads),
-            {}})));
+        add_troubles(volumes, one.grid);
+        made.push_back(of_grid(std::move(one.grid), {}, request->threads));
     }
     made.front().made_->volumes = std::move(volumes);
     return made;
+}
+
+PictureGrid PictureGrid::of_grid(grid::Grid grid, std::vector<SourceVolume> volumes, int threads) {
+    add_troubles(volumes, grid);
+    return PictureGrid(std::make_unique<Made>(
+        Made{fmt::format("{}", fmt::join(grid.provenance.stations, "+")), cache::describe(grid),
+             grid::BrickGrid::from(grid, grid::default_quantization(grid.moment), threads),
+             std::move(volumes)}));
 }
 
 Result<std::vector<PictureGrid>> PictureGrid::make_by_time(const GridOptions& options) {
@@ -120,20 +135,11 @@ Result<std::vector<PictureGrid>> PictureGrid::make_by_time(const GridOptions& op
     return grids;
 }
 
-Result<PictureGrid> PictureGrid::make_rain_total(const GridOptions& options) {
-    auto grids = make_by_time(options);
-    if (!grids) return pass_on(grids);
-    RainTotalGrid total;
-    for (const PictureGrid& grid : *grids) {
-        const Status added = total.add(grid.view(), grid.description(), options.threads);
-        if (!added) return pass_on(added);
-    }
+Result<PictureGrid> PictureGrid::of_rain(std::string name, const RainTotalGrid& total) {
     auto bricks = total.bricks();
     if (!bricks) return pass_on(bricks);
-    Made& newest = *grids->back().made_;
-    newest.description = total.description();
-    newest.bricks = std::move(*bricks);
-    return std::move(grids->back());
+    return PictureGrid(
+        std::make_unique<Made>(Made{std::move(name), total.description(), std::move(*bricks), {}}));
 }
 
 Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {

@@ -30,6 +30,11 @@ void add_picture_grid_options(CLI::App& app, GridOptions& options);
 // Copies into the grid's options the scene's moment, how it is dealiased, and its storm motion.
 void take_moment(const render::SceneOptions& scene, GridOptions& grid);
 
+// Returns the middle of the time that the grid's volume took, or the instant of a mosaic's frame.
+[[nodiscard]] UtcTime middle_of(const cache::GridDescription& grid);
+
+class RainTotalGrid;
+
 class PictureGrid {
   public:
     // Opens a grid of the cache. Errors: those of GridFile::open().
@@ -44,9 +49,11 @@ class PictureGrid {
     // Grids each file, and returns the largest values of each cell (RotationTrack). Errors: those
     // of make() and of RotationTrack::add().
     [[nodiscard]] static Result<PictureGrid> make_track(const GridOptions& options);
-    // Grids the rain rates of each file, and returns their total (RainTotalGrid). Errors: those of
-    // make() and of RainTotalGrid.
-    [[nodiscard]] static Result<PictureGrid> make_rain_total(const GridOptions& options);
+    // Returns a grid made of volumes, which it then owns.
+    [[nodiscard]] static PictureGrid of_grid(grid::Grid grid, std::vector<SourceVolume> volumes,
+                                             int threads);
+    // Returns the total under a name. Errors: those of RainTotalGrid::bricks().
+    [[nodiscard]] static Result<PictureGrid> of_rain(std::string name, const RainTotalGrid& total);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
                                                       const render::Scene& scene,

@@ -4,34 +4,44 @@
 #include <cstddef>
 #include <utility>
 
-#include "render/options/scene_options.h"
+#include "cli/picture/picture_grid.h"
+#include "retrieve/rain/rain_note.h"
 
 namespace stormcellar::cli {
 namespace {
 
 constexpr double most_unseen_share = 0.1;
+constexpr double all_of_the_time = 0.999;
 
-UtcTime middle_of(const cache::GridDescription& description) {
-    return description.start_time + (description.end_time - description.start_time) / 2;
+// Returns the place about which the columns are placed: the radar, or the center of a mosaic.
+grid::SitePosition place_of(const cache::GridDescription& description) {
+    if (description.provenance.recipe == 0) return description.sites.front();
+    return {"", description.spec.center_latitude_deg, description.spec.center_longitude_deg, 0};
 }
 
 }  // namespace
 
-Status RainTotalGrid::add(const grid::BrickView& view, const cache::GridDescription& description,
+Status RainTotalGrid::add(const grid::BrickView& rate, const cache::GridDescription& description,
                           int threads) {
     const bool is_of_one_radar =
         description.sites.size() == 1 &&
         (volumes_ == 0 || description.sites[0].icao == description_.sites[0].icao);
-    if (!is_of_one_radar)
+    if (description.provenance.recipe == 0 && !is_of_one_radar)
         return fail(ErrorCode::bad_argument, "the files of a rain total must be of one radar");
+    const UtcTime middle = middle_of(description);
     if (!total_) {
-        total_.emplace(description.sites[0], retrieve::RainSteps::advected, threads);
-        since_ = description.time;
+        total_.emplace(place_of(description), retrieve::RainSteps::advected, threads, span_);
+        first_ = middle;
     }
-    if (Status added = total_->add(view, middle_of(description)); !added) return added;
+    if (Status added = total_->add(rate, middle); !added) return added;
     description_ = description;
+    last_ = middle;
     ++volumes_;
     return {};
+}
+
+void RainTotalGrid::close() {
+    if (total_) total_->close();
 }
 
 Result<grid::BrickGrid> RainTotalGrid::bricks() const {
@@ -45,7 +55,7 @@ Result<grid::BrickGrid> RainTotalGrid::bricks() const {
     for (std::size_t column = 0; column < sum.values.size(); ++column) {
         const double unseen = static_cast<double>(total_->unseen_minutes()[column]);
         if (unseen <= most_unseen_share * total_->minutes()) continue;
-        const bool was_seen = unseen < 0.999 * total_->minutes();
+        const bool was_seen = unseen < all_of_the_time * total_->minutes();
         sum.status[column] = was_seen ? grid::CellStatus::ambiguous : grid::CellStatus::not_seen;
         sum.values[column] = 0;
     }
@@ -55,14 +65,18 @@ Result<grid::BrickGrid> RainTotalGrid::bricks() const {
 cache::GridDescription RainTotalGrid::description() const {
     cache::GridDescription made = description_;
     made.spec = total_->spec();
+    made.moment = level2::Moment::rate;
+    made.time = span_ ? span_->to : last_;
+    made.start_time = span_ ? span_->from : first_;
     const auto& unseen = total_->unseen_minutes();
-    const auto all = static_cast<float>(0.999 * total_->minutes());
+    const auto all = static_cast<float>(all_of_the_time * total_->minutes());
     const auto partly = std::ranges::count_if(
         unseen, [&](float minutes) { return minutes > 0.01F && minutes < all; });
-    made.provenance.notes.push_back(render::track_note(since_));
-    made.provenance.notes.push_back(fmt::format(
-        "rain of {:.0f} minutes and {} volumes; {} columns were not seen for a part of them",
-        total_->minutes(), volumes_, partly));
+    made.provenance.notes.push_back(retrieve::rain_note({.from = made.start_time,
+                                                         .minutes = total_->minutes(),
+                                                         .gap_minutes = total_->gap_minutes(),
+                                                         .volumes = volumes_,
+                                                         .columns_partly_unseen = partly}));
     return made;
 }
 

@@ -1,9 +1,11 @@
-// cli/picture/rain_total_grid.h -- the grid of the product rain-total, from the grids of RATE of
-// several volumes.
+// cli/picture/rain_total_grid.h -- the grid of the product rain-total, from the grids of RATE or
+// REF of several volumes.
 //
 // The grid has the columns of the volumes at their lowest level, and the moment RATE. Its values
 // are millimeters, the rate that gives the total in one hour. A column that was not seen for more
-// than a tenth of the time is ambiguous. A note says how many columns were not seen all the time.
+// than a tenth of the time is ambiguous. A note (retrieve/rain/rain_note.h) says which time the
+// total covers, how many minutes of it have no volumes, and how many columns were not seen all the
+// time.
 //
 // Units     mm.
 // Threads   One thread at a time; work is split over `threads`.
@@ -20,19 +22,25 @@ namespace stormcellar::cli {
 
 class RainTotalGrid {
   public:
-    // Adds a later volume. Errors: bad_argument if it is of another radar; those of
-    // RainTotal::add().
-    [[nodiscard]] Status add(const grid::BrickView& view, const cache::GridDescription& description,
+    // Without a span, the total goes from the first volume to the last.
+    explicit RainTotalGrid(std::optional<retrieve::RainSpan> span = std::nullopt) : span_(span) {}
+
+    // Adds the rates of a later volume: its grid, or the lowest cells alone. Errors: bad_argument
+    // if it is of another radar, or if no mosaic is of several radars; those of RainTotal::add().
+    [[nodiscard]] Status add(const grid::BrickView& rate, const cache::GridDescription& description,
                              int threads);
+    // Ends the total at the end of the span. Call once, after the last volume.
+    void close();
 
     // These need at least two volumes; errors: bad_argument.
     [[nodiscard]] Result<grid::BrickGrid> bricks() const;
-    // Returns the description of the newest volume, with notes on the time and what was not seen.
+    // Returns the description of the newest volume at the end of the total, with the note.
     [[nodiscard]] cache::GridDescription description() const;
 
   private:
+    std::optional<retrieve::RainSpan> span_;
     std::optional<retrieve::RainTotal> total_;
-    UtcTime since_;
+    UtcTime first_, last_;  // the middles of the first and of the last volume
     int volumes_ = 0;
     cache::GridDescription description_;
 };

@@ -229,6 +229,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--spacing-km", "KM"},
     {"--ring-spacing-km", "KM"},
     {"--height-km", "KM"},
+    {"--hours", "HOURS"},
     {"--overlap-km", "KM"},
     {"--spacing-deg", "DEGREES"},
     {"--azimuth", "DEGREES"},

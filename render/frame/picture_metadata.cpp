@@ -100,6 +100,7 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);
+    if (!facts.frames) add("Notes", fmt::format("{}", fmt::join(provenance.notes, "; ")));
     add("Between grids", facts.between);
     add("Picture", picture_text(scene));
     add("Picture error", facts.error);

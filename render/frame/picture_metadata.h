@@ -14,6 +14,7 @@
 //   Grid                cells, spacing, levels
 //   Gridding            method, beam, averaging, effects
 //   Gridding error      as predicted, if it was predicted
+//   Notes               what the grid says about its making; for a still
 //   Between grids       how frames between grids were made
 //   Picture             slices, integration, light
 //   Picture error       as planned and measured

@@ -184,6 +184,7 @@ std::string product_line(const Scene& scene, const FrameFacts& facts) {
         const std::string since = format_utc(*facts.since);
         line += fmt::format(", since {} {} UTC", since.substr(0, 10), since.substr(11, 5));
     }
+    if (!facts.rain.empty()) line += ", " + facts.rain;
     if (!facts.quality.empty()) line += ", " + facts.quality;
     return line;
 }

@@ -12,6 +12,7 @@
 #include "render/color/color_file.h"
 #include "render/options/moment_name.h"
 #include "retrieve/nowcast/nowcast_note.h"
+#include "retrieve/rain/rain_note.h"
 
 namespace stormcellar::render {
 
@@ -254,6 +255,10 @@ FrameFacts frame_facts_of(const std::string& domain, const cache::GridDescriptio
         facts.storm_motion = retrieve::motion_in_notes(description.provenance.notes);
     facts.quality = retrieve::quality_in_notes(description.provenance.notes);
     facts.since = track_start(description.provenance.notes);
+    if (auto rain = retrieve::rain_in_notes(description.provenance.notes)) {
+        facts.since = rain->from;
+        facts.rain = std::move(rain->span);
+    }
     auto note = retrieve::nowcast_in_notes(description.provenance.notes);
     facts.nowcast = std::move(note.nowcast);
     facts.nowcast_score = std::move(note.score);

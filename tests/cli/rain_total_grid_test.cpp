@@ -50,16 +50,19 @@ TEST(RainTotalGrid, AddsUpRainAndMarksColumnsThatWereNotSeen) {
     EXPECT_EQ(rain.status[rain.spec.index(20, 5, 0)], CellStatus::not_seen);
     EXPECT_NEAR(rain.values[rain.spec.index(20, 30, 0)], 4, 0.02);
     const auto notes = total.description().provenance.notes;
-    ASSERT_EQ(notes.size(), 2U);
-    EXPECT_EQ(notes[1],
-              "rain of 20 minutes and 3 volumes; 0 columns were not seen for a part of them");
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_EQ(notes[0],
+              "rain since 2024-06-01T00:00:00Z: 20 minutes; 3 volumes; 0 columns were not seen for "
+              "a part of the time");
 
     ASSERT_TRUE(total.add(steady_rain(first.spec, 10).view(), description_at(70), 1));
     const grid::Grid gap = grid::to_dense(total.bricks()->view());
     EXPECT_EQ(gap.status[gap.spec.index(20, 30, 0)], CellStatus::ambiguous)
         << "50 minutes of 70 were not seen";
-    EXPECT_EQ(total.description().provenance.notes[1],
-              "rain of 70 minutes and 4 volumes; 1200 columns were not seen for a part of them");
+    EXPECT_EQ(total.description().provenance.notes[0],
+              "rain since 2024-06-01T00:00:00Z: 70 minutes, 50 of them without volumes; 4 volumes; "
+              "1200 columns were not seen for a part of the time");
+    EXPECT_EQ(total.description().time, rain_start + std::chrono::minutes{70});
 }
 
 TEST(RainTotalGrid, RefusesOtherRadars) {

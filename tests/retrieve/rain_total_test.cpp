@@ -110,6 +110,75 @@ TEST(RainTotal, OfMovingStormsIsTheirIntegralAndNoComb) {
     EXPECT_GE(in_place, 0.3) << "without motion, the total is a comb";
 }
 
+// The volumes do not begin or end with the hour.
+TEST(RainTotal, OfAnHourWithinTheVolumesIsItsIntegral) {
+    RainTotal total({"KTLX", 35, -97, 300}, RainSteps::advected, 1,
+                    RainSpan{total_time(0), total_time(hour_s)});
+    for (double t_s = -450; t_s <= hour_s + 450; t_s += apart_s)
+        ASSERT_TRUE(total.add(storms_at(t_s).view(), total_time(t_s)));
+    total.close();
+    EXPECT_NEAR(total.minutes(), 60, 1e-9);
+    EXPECT_EQ(total.gap_minutes(), 0);
+    const double error = largest_error(total);
+    std::printf("largest error of an hour within the volumes: %.4f\n", error);
+    EXPECT_LE(error, 0.01);
+}
+
+TEST(RainTotal, CountsTheMinutesOfASpanThatHaveNoVolumes) {
+    for (const RainSteps steps : {RainSteps::advected, RainSteps::in_place}) {
+        RainTotal total({"KTLX", 35, -97, 300}, steps, 1,
+                        RainSpan{total_time(-3600), total_time(3600)});
+        for (const double t_s : {-600.0, -300.0, 0.0, 300.0, 3300.0, 3900.0})
+            ASSERT_TRUE(total.add(storms_at(t_s).view(), total_time(t_s)));
+        total.close();
+        EXPECT_NEAR(total.minutes(), 120, 1e-9);
+        EXPECT_NEAR(total.gap_minutes(), 50 + 50, 1e-9) << "before the first, and a gap";
+        EXPECT_NEAR(total.unseen_minutes()[total.spec().index(110, 70, 0)], 100, 0.01);
+    }
+}
+
+TEST(RainTotal, ASpanAfterTheVolumesIsNotSeen) {
+    RainTotal total({"KTLX", 35, -97, 300}, RainSteps::advected, 1,
+                    RainSpan{total_time(7200), total_time(10800)});
+    for (const double t_s : {0.0, 300.0})
+        ASSERT_TRUE(total.add(storms_at(t_s).view(), total_time(t_s)));
+    total.close();
+    EXPECT_NEAR(total.minutes(), 60, 1e-9);
+    EXPECT_NEAR(total.gap_minutes(), 60, 1e-9);
+    EXPECT_EQ(*std::ranges::max_element(total.mm()), 0);
+    RainTotal none({"KTLX", 35, -97, 300}, RainSteps::advected, 1,
+                   RainSpan{total_time(0), total_time(10)});
+    none.close();
+    EXPECT_EQ(none.minutes(), 0) << "without a volume nothing is known";
+}
+
+TEST(RainTotal, LowestCellsOfReflectivityGiveTheRateByReflectivity) {
+    grid::Grid echo;
+    echo.spec = total_spec();
+    echo.values.assign(echo.spec.cell_count(), 0);
+    echo.status.assign(echo.spec.cell_count(), CellStatus::not_seen);
+    const auto put = [&](int ix, int iz, CellStatus status, float dbz) {
+        echo.status[echo.spec.index(ix, 9, iz)] = status;
+        echo.values[echo.spec.index(ix, 9, iz)] = dbz;
+    };
+    put(1, 0, CellStatus::value, 40);
+    put(1, 1, CellStatus::value, 60);
+    put(2, 1, CellStatus::value, 60);
+    put(3, 0, CellStatus::no_echo, 0);
+    put(4, 0, CellStatus::range_folded, 0);
+    const grid::BrickGrid bricks =
+        grid::BrickGrid::from(echo, grid::default_quantization(level2::Moment::ref));
+    const grid::Grid rates =
+        grid::to_dense(lowest_rates(bricks.view(), level2::Moment::ref, 1).view());
+    ASSERT_EQ(rates.spec.nz(), 1);
+    const auto at = [&](int ix) { return rates.spec.index(ix, 9, 0); };
+    EXPECT_NEAR(rates.values[at(1)], 12.24, 0.01) << "(10^4 / 300)^(1 / 1.4)";
+    EXPECT_NEAR(rates.values[at(2)], 103.8, 0.1) << "capped at 53 dBZ";
+    EXPECT_EQ(rates.status[at(3)], CellStatus::no_echo);
+    EXPECT_EQ(rates.status[at(4)], CellStatus::not_seen);
+    EXPECT_EQ(rates.status[at(5)], CellStatus::not_seen);
+}
+
 TEST(RainTotal, CountsMinutesThatWereNotSeen) {
     RainTotal total({"KTLX", 35, -97, 300});
     EXPECT_TRUE(total.mm().empty());

@@ -35,6 +35,7 @@ struct FrameFacts {
     // The rung that dealiased the velocities of a grid of shear; empty for other grids.
     std::string dealiasing = {};
     std::optional<UtcTime> since = {};  // the first volume of a product over time
+    std::string rain = {};  // of a rain total: "180 minutes, 12 of them without volumes"; or empty
     bool interpolated = false;          // the grid was interpolated between volumes, as requested
     // For a nowcast, what it is and its measured error (retrieve/nowcast/nowcast_note.h); else
     // empty.

@@ -5,10 +5,12 @@
 //           in steps of at most a minute, so that a fast storm does not leave a comb of the places
 //           where the radar saw it. The motion comes from the rates of both volumes, as
 //           reflectivity.
-// Units     mm, minutes, mm/h. Time begins at the middle of the first volume and ends at the middle
-//           of the last one.
+// Units     mm, minutes, mm/h. Without a span, time begins at the middle of the first volume and
+//           ends at the middle of the last one. With a span, only the minutes in it count; the
+//           volumes before and after it tell the rates at its ends.
 // Unseen    Minutes in which a column is not seen are counted, and never taken as dry. Without a
-//           bridge of at most 30 minutes between two volumes, no column is seen between them.
+//           bridge of at most 30 minutes between two volumes, no column is seen between them, nor
+//           before the first or after the last volume of a span.
 // Errors    bad_argument if a volume has another spec than the first one, or is not later than the
 //           one before it.
 // Accuracy  1 % of the largest total, for storms of 3 km that move at 30 m/s and are seen every 5
@@ -39,38 +41,57 @@ enum class RainSteps : std::uint8_t {
     in_place,  // each rate lasts until the middle of the time to the next volume
 };
 
+struct RainSpan {
+    UtcTime from, to;
+};
+
+// Returns the lowest cell that is seen of each column, as a grid of RATE with one level. `moment`
+// is RATE or REF; REF gives the rate by reflectivity alone (rain_rate.h).
+[[nodiscard]] grid::BrickGrid lowest_rates(const grid::BrickView& view, level2::Moment moment,
+                                           int threads);
+
 class RainTotal {
   public:
     static constexpr std::chrono::minutes longest_bridge{30};
 
     explicit RainTotal(grid::SitePosition site, RainSteps steps = RainSteps::advected,
-                       int threads = 1);
+                       int threads = 1, std::optional<RainSpan> span = std::nullopt);
 
-    // Adds the grid of RATE of a later volume, whose middle is the time.
+    // Adds the grid of RATE of a later volume, whose middle is the time. Many levels or the lowest
+    // cells alone (lowest_rates()) give the same.
     [[nodiscard]] Status add(const grid::BrickView& rate, UtcTime middle);
+    // Counts the part of the span after the last volume as not seen. Call once, at the end; without
+    // a span this does nothing.
+    void close();
 
     // These have a number for each column, row by row from the south-west; empty before the first
     // volume.
     [[nodiscard]] const std::vector<float>& mm() const { return mm_; }
     [[nodiscard]] const std::vector<float>& unseen_minutes() const { return unseen_minutes_; }
-    // Returns the time between the first and the last volume.
+    // Returns the length of the span; without one, the time between the first and the last volume.
     [[nodiscard]] double minutes() const { return minutes_; }
+    // Returns the minutes of these in which no column was seen, because volumes are missing.
+    [[nodiscard]] double gap_minutes() const { return gap_minutes_; }
     // Returns the spec of the columns: that of the volumes with only their lowest level.
     [[nodiscard]] const grid::GridSpec& spec() const { return lowest_->spec(); }
 
   private:
     [[nodiscard]] Status bridge(const grid::BrickGrid& next, UtcTime middle);
+    [[nodiscard]] Status advect(const grid::BrickGrid& next, UtcTime middle, double begin_s,
+                                double end_s);
     void count(const grid::Grid& rates, double seconds);
+    void count_gap(double seconds);
 
     grid::SitePosition site_;
     RainSteps steps_;
     int threads_;
+    std::optional<RainSpan> span_;
     std::optional<grid::GridSpec> whole_spec_;
     std::shared_ptr<const grid::ColumnGeometry> columns_;
     std::optional<grid::BrickGrid> lowest_;  // rates of the last volume
     UtcTime middle_;
     std::vector<float> mm_, unseen_minutes_;
-    double minutes_ = 0;
+    double minutes_ = 0, gap_minutes_ = 0;
 };
 
 }  // namespace stormcellar::retrieve
