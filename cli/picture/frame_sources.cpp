@@ -4,6 +4,7 @@
 
 #include "base/printable.h"
 #include "cli/picture/cell_scans.h"
+#include "cli/picture/hail_mosaic.h"
 #include "cli/picture/picture.h"
 #include "cli/picture/rain_sources.h"
 #include "cli/picture/raw_volume.h"
@@ -223,7 +224,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     if (!rain) return pass_on(rain);
     const render::ProductFacts& product = render::facts_of(scene.product);
     FrameGrids grids;
-    const bool is_special = product.is_of_sweep || product.is_over_time;
+    const bool is_special = product.is_of_sweep || product.is_over_time || product.hail != nullptr;
     if (options.scene.overlay == render::overlay_cells) {
         auto reflectivity = find_cells_of_files(options, scene, grids);
         if (!reflectivity) return pass_on(reflectivity);
@@ -232,17 +233,23 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     }
     if (grids.shown) {
         // The search for cells made the grid.
-    } else if (is_special) {
+    } else if (product.is_of_sweep || product.is_over_time) {
         auto made = product.is_of_sweep ? sweep_of_file(options.grid, scene)
                     : product.is_sum    ? rain_total_of_files(options.grid, *rain)
                                         : PictureGrid::make_track(options.grid);
         if (!made) return pass_on(made);
         grids.shown = std::move(*made);
     } else {
-        auto made = made_grids(options.grid, options.rotation);
-        if (!made) return made;
-        grids.shown = std::move(made->shown);
-        grids.shear = std::move(made->shear);
+        if (product.hail != nullptr) {
+            auto made = hail_grid_of_files(options.grid, scene.freezing_levels);
+            if (!made) return pass_on(made);
+            grids.shown = std::move(*made);
+        } else {
+            auto made = made_grids(options.grid, options.rotation);
+            if (!made) return made;
+            grids.shown = std::move(made->shown);
+            grids.shear = std::move(made->shear);
+        }
     }
     options.domain = grids.shown->name();
     return grids;

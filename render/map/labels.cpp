@@ -177,6 +177,8 @@ std::string duration_text(std::chrono::seconds duration) {
 
 std::string product_line(const Scene& scene, const FrameFacts& facts) {
     std::string line = product_title(scene);
+    if (facts_of(scene.product).layer && facts.sites.size() > 1)
+        line += fmt::format(", the lowest of {}", facts.sites.size());
     if (facts.storm_motion && scene.moment == level2::Moment::srv)
         line += ", " + motion_text(*facts.storm_motion, scene.units);
     if (!facts.dealiasing.empty()) line += ", dealiasing " + facts.dealiasing;

@@ -295,14 +295,10 @@ Result<FlatField> layer_maximum_field(const BrickView& view, const HeightLayer& 
 
 namespace {
 
-Result<FlatField> rotation_field(const BrickView& view, const FrameFacts& facts, const Scene& scene,
-                                 int threads) {
-    if (facts.sites.size() != 1)
-        return fail(ErrorCode::bad_argument,
-                    "{} is a layer above one radar, and this grid has {} radars",
-                    product_name(scene.product), facts.sites.size());
-    return layer_maximum_field(view, *facts_of(scene.product).layer, radar_height_m(facts),
-                               threads);
+// Returns the height of the lowest radar, above which a mosaic has its layers of rotation.
+double lowest_radar_m(const FrameFacts& facts) {
+    if (facts.sites.empty()) return 0;
+    return std::ranges::min_element(facts.sites, {}, &grid::SitePosition::altitude_m)->altitude_m;
 }
 
 }  // namespace
@@ -370,7 +366,8 @@ Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, cons
         case Product::rotation:
         case Product::rotation_aloft:
         case Product::rotation_tracks:
-            return rotation_field(view, facts, scene, threads);
+            return layer_maximum_field(view, *facts_of(scene.product).layer, lowest_radar_m(facts),
+                                       threads);
         case Product::mesh:
         case Product::posh:
         case Product::shi:

@@ -27,7 +27,8 @@
 //   lowest_seen, highest_seen   km: the height of the lowest or highest cell that is not "not
 //                               seen".
 //   rotation, rotation_aloft   The largest value of the cells whose height above the radar is in
-//                              the product's layer.
+//                              the product's layer. A mosaic, which merges the shear of its
+//                              radars by maximum, has its layer above the lowest radar.
 //   rotation_tracks            As rotation, of a grid that has the largest value of each cell over
 //                              time.
 //   mesh, posh, shi   mm, %, J/m/s: hail (hail_field.h)
@@ -100,10 +101,8 @@ inline constexpr double least_depth_m = 500;
 [[nodiscard]] double radar_height_m(const FrameFacts& facts);
 
 // Returns the field of the scene's product, which must be a map. The scene must be valid for the
-// view and its facts. Only a composite and hail
-// use `columns`. Errors: those of cappi_field() and
-// layer_maximum_field(); bad_argument for a layer above several radars; internal for a product that
-// is not a map.
+// view and its facts. Only a composite and hail use `columns`. Errors: those of cappi_field() and
+// layer_maximum_field(); internal for a product that is not a map.
 [[nodiscard]] Result<FlatField> map_field(const grid::BrickView& view, const FrameFacts& facts,
                                           const Scene& scene,
                                           const std::vector<ColumnSummary>& columns, int threads);

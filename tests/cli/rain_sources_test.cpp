@@ -89,6 +89,25 @@ TEST_F(RainSources, TheTimeOfTheEndMayBeBetweenGrids) {
     EXPECT_NEAR(grid::to_dense(made->view()).values.front(), mm_per_h_, 0.02);
 }
 
+TEST_F(RainSources, AMosaicOfTheCacheHasATotal) {
+    for (int minute = 0; minute <= 60; minute += 5) {
+        grid::Grid grid = testing::uniform_grid("20050822_000000", steady_dbz);
+        grid.time = steady_start + std::chrono::minutes(minute);
+        grid.start_time = grid.time - std::chrono::minutes(5);  // of the oldest of its volumes
+        grid.end_time = grid.time + std::chrono::minutes(1);
+        grid.provenance.recipe = 7;
+        // A radar may be silent for a while.
+        if (minute >= 20) grid.sites.push_back({"KENX", 42.6, -74.1, 580});
+        const auto bricks = grid::BrickGrid::from(grid, grid::default_quantization(grid.moment));
+        ASSERT_TRUE(writer_.commit("northeast", cache::describe(grid), bricks.view()));
+    }
+    const auto made = rain_total_of_domain(writer_, "northeast", {.hours = 1});
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(rain_of(*made), "60 minutes");
+    EXPECT_EQ(made->description().time, steady_start + std::chrono::hours(1)) << "of the frame";
+    EXPECT_NEAR(grid::to_dense(made->view()).values.front(), mm_per_h_, 0.02);
+}
+
 TEST_F(RainSources, GridsOfRateComeFirst) {
     for (int minute = 60; minute <= 120; minute += 10)
         commit(minute, level2::Moment::rate, 30);
