@@ -130,6 +130,7 @@ std::vector<Lesson> lessons_of(const level2::Volume& volume, QualityRule rule) {
     for_each_judged_sweep(volume, [&](std::size_t sweep, const GateField& field,
                                       const std::vector<float>& correlation) {
         const retrieve::EchoGates echo(field);
+        GateField scratch;
         std::vector<Lesson> of_gates(echo.count());
         for (std::size_t radial = 0, i = 0; radial < field.radials; ++radial)
             for (const std::uint32_t gate : echo.of(radial)) {
@@ -141,7 +142,7 @@ std::vector<Lesson> lessons_of(const level2::Volume& volume, QualityRule rule) {
                 lesson.weight = weight_of(truth);
             }
         retrieve::visit_features(
-            volume, sweep, field, echo, rule,
+            volume, sweep, field, echo, rule, scratch,
             [&](Feature feature, std::size_t radial, std::span<const float> values) {
                 for (std::size_t i = 0; i < values.size(); ++i)
                     of_gates[echo.begin(radial) + i].features[static_cast<std::size_t>(feature)] =

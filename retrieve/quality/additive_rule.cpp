@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "retrieve/quality/gate_loops.h"
+
 namespace stormcellar::retrieve {
 namespace {
 
@@ -26,28 +28,14 @@ RuleTables::RuleTables(const AdditiveRule& rule) : constant_(rule.constant) {
         for (std::size_t step = 0; step < steps; ++step)
             table.log_odds[step] = interpolated(
                 term.knots, table.first + static_cast<float>(step) / table.steps_per_unit);
-        table.log_odds[missing_step] = term.missing;
+        table.log_odds[last_step + 1] = term.missing;
     }
 }
 
 void RuleTables::add(Feature feature, std::span<const float> values, float* log_odds) const {
     const Table& table = tables_[table_of_[static_cast<std::size_t>(feature)]];
-    // Compilers vectorize the first loop of a block, but not the search in the table.
-    std::array<std::int32_t, 256> places{};
-    for (std::size_t begin = 0; begin < values.size(); begin += places.size()) {
-        const std::size_t count = std::min(places.size(), values.size() - begin);
-        const float* from = values.data() + begin;
-        for (std::size_t i = 0; i < count; ++i) {
-            const bool is_missing = from[i] != from[i];
-            const float value = is_missing ? table.first : from[i];
-            const float step = (value - table.first) * table.steps_per_unit + 0.5F;
-            const float low = step < most_step ? step : most_step;
-            const auto place = static_cast<std::int32_t>(low > 0 ? low : 0);
-            places[i] = is_missing ? missing_step : place;
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            log_odds[begin + i] += table.log_odds[static_cast<std::size_t>(places[i])];
-    }
+    add_entries(values.data(), values.size(),
+                {table.first, table.steps_per_unit, last_step, table.log_odds.data()}, log_odds);
 }
 
 }  // namespace stormcellar::retrieve

@@ -48,8 +48,7 @@ class RuleTables {
 
   private:
     static constexpr std::size_t steps = 512;
-    static constexpr float most_step = steps - 1;
-    static constexpr std::int32_t missing_step = steps;
+    static constexpr std::int32_t last_step = steps - 1;
     struct Table {
         float first = 0, steps_per_unit = 0;
         std::array<float, steps + 1> log_odds{};  // the last one is that of a missing value

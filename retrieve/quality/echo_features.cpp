@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
+#include "retrieve/quality/gate_loops.h"
 #include "retrieve/sweeps/nearest_sweep.h"
 #include "stormcellar/grid/beam_geometry.h"
 
@@ -16,12 +18,43 @@ using level2::Moment;
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
+// The gates of another field that have the ranges of the gates here, times a factor.
+class GatesElsewhere {
+  public:
+    GatesElsewhere(const GateField& here, const GateField& there, double stretch)
+        : gates_(here.gates) {
+        for (std::size_t gate = 0; gate < gates_.size(); ++gate)
+            gates_[gate] = there.gate_at(here.range_m(gate) * stretch);
+        // The gates that have a place there follow each other.
+        const auto has_place = [](std::int32_t gate) { return gate >= 0; };
+        const auto first = std::ranges::find_if(gates_, has_place);
+        begin_ = static_cast<std::uint32_t>(first - gates_.begin());
+        end_ = static_cast<std::uint32_t>(std::find_if_not(first, gates_.end(), has_place) -
+                                          gates_.begin());
+    }
+    // Writes the numbers there of the gates here that have a place, and returns which these are.
+    template <class Number>
+    std::span<const std::uint32_t> take(std::span<const std::uint32_t> here, const Number* there,
+                                        std::vector<Number>& numbers) const {
+        const auto from = std::ranges::lower_bound(here, begin_);
+        const auto placed = std::span(from, std::ranges::lower_bound(here, end_));
+        numbers.resize(placed.size());
+        for (std::size_t i = 0; i < placed.size(); ++i)
+            numbers[i] = there[gates_[placed[i]]];
+        return placed;
+    }
+
+  private:
+    std::vector<std::int32_t> gates_;  // -1 for none
+    std::uint32_t begin_ = 0, end_ = 0;
+};
+
 // The place of each gate in another field with other radials.
 class Elsewhere {
   public:
-    // `radials` and `gates` are the numbers there, or -1 for none.
+    // `radials` are the numbers there, or -1 for none.
     Elsewhere(const std::vector<std::int32_t>& radials, std::size_t radials_there,
-              std::vector<std::int32_t> gates)
+              GatesElsewhere gates)
         : radials_here_(radials_there + 1), gates_(std::move(gates)) {
         for (std::size_t radial = 0; radial < radials.size(); ++radial) {
             const std::int32_t there = radials[radial];
@@ -38,41 +71,34 @@ class Elsewhere {
     [[nodiscard]] std::span<const std::uint32_t> radials_without() const {
         return radials_here_.back();
     }
-    [[nodiscard]] std::int32_t gate(std::uint32_t here) const { return gates_[here]; }
+    [[nodiscard]] const GatesElsewhere& gates() const { return gates_; }
 
   private:
     std::vector<std::vector<std::uint32_t>> radials_here_;
-    std::vector<std::int32_t> gates_;
+    GatesElsewhere gates_;
 };
 
-std::vector<std::int32_t> gates_elsewhere(const GateField& here, const GateField& there,
-                                          double stretch) {
-    std::vector<std::int32_t> gates(here.gates);
-    for (std::size_t gate = 0; gate < gates.size(); ++gate)
-        gates[gate] = there.gate_at(here.range_m(gate) * stretch);
-    return gates;
-}
-
 // The three ways from a sum to a feature.
-auto mean(const GateField& field) {
-    return [&field](BoxSum sum) { return field.value_of(sum.mean()); };
+SumFeature mean(const GateField& field) {
+    return {SumFeature::Kind::mean, field.scale, field.offset};
 }
-auto root_mean(const GateField& field) {
-    return [scale = field.scale](BoxSum sum) { return std::sqrt(sum.mean()) / scale; };
+SumFeature root_mean(const GateField& field) {
+    return {SumFeature::Kind::root_mean, field.scale};
 }
-auto share(const GateBox& box) {
-    return [all = static_cast<float>(box.size())](BoxSum sum) { return sum.count() / all; };
+SumFeature share(const GateBox& box) {
+    return {SumFeature::Kind::share, 1, 0, static_cast<float>(box.size())};
 }
 
 class FeatureMaker {
   public:
     FeatureMaker(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                 const EchoGates& echo, const FeatureVisitor& visit)
+                 const EchoGates& echo, GateField& scratch, const FeatureVisitor& visit)
         : volume_(volume),
           sweep_(volume.sweeps[sweep]),
           sweep_number_(sweep),
           field_(field),
           echo_(echo),
+          other_(scratch),
           visit_(visit) {}
 
     void visit_dual() {
@@ -155,111 +181,129 @@ class FeatureMaker {
                 static_cast<float>(beam.forward({field_.range_m(gate), elevation}).height_m);
         visit_all(Feature::height, [&](std::size_t, std::uint32_t gate) { return heights[gate]; });
     }
-    template <class Value>
-    SumVisitor at_own_gates(Feature feature, Value value) {
-        return [this, feature, value](std::size_t radial, const std::uint32_t* sums) {
-            visit_radial(feature, radial,
-                         [&](std::uint32_t gate) { return value(BoxSum(sums[gate])); });
+    SumVisitor at_own_gates(Feature feature, const SumFeature& how) {
+        return [this, feature, how](std::size_t radial, const std::uint32_t* sums) {
+            const auto gates = echo_.of(radial);
+            sums_.resize(gates.size());
+            values_.resize(gates.size());
+            for (std::size_t i = 0; i < gates.size(); ++i)
+                sums_[i] = sums[gates[i]];
+            features_of_sums(sums_.data(), gates.size(), how, values_.data());
+            visit_(feature, radial, values_);
         };
     }
 
     // Another moment of the same sweep has the same radials, and may have other gates.
-    using SumUp = void (FeatureMaker::*)(Feature, const GateField&, const GateBox&);
+    using SumUp = void (FeatureMaker::*)(Feature, const GateBox&);
     void visit_own_sums(Moment kind, Feature feature, double length_m, SumUp sum_up) {
-        const level2::SweepMoment* moment = sweep_.find(kind);
-        const GateField other = moment != nullptr ? gate_field(sweep_, *moment) : GateField{};
-        if (other.is_empty()) return visit_missing(feature);
-        (this->*sum_up)(feature, other, gate_box(3, length_m, other));
+        if (!read_other(sweep_, kind)) return visit_missing(feature);
+        (this->*sum_up)(feature, gate_box(3, length_m, other_));
     }
-    void sum_codes(Feature feature, const GateField& other, const GateBox& box) {
-        visit_code_sums(other, box, at_gates_of(feature, other, mean(other)));
+    // Reads another moment. Returns false if the sweep lacks it, or if it has no gates.
+    bool read_other(const level2::Sweep& sweep, Moment kind) {
+        const level2::SweepMoment* moment = sweep.find(kind);
+        if (moment == nullptr) return false;
+        read_gate_field(sweep, *moment, other_);
+        return !other_.is_empty();
     }
-    void sum_differences(Feature feature, const GateField& other, const GateBox& box) {
+    void sum_codes(Feature feature, const GateBox& box) {
+        visit_code_sums(other_, box, at_gates_of_other(feature, mean(other_)));
+    }
+    void sum_differences(Feature feature, const GateBox& box) {
         const float turn = feature == Feature::phase_texture ? 360 : 0;
-        visit_difference_sums(other, box, Direction::range, turn,
-                              at_gates_of(feature, other, root_mean(other)));
+        visit_difference_sums(other_, box, Direction::range, turn,
+                              at_gates_of_other(feature, root_mean(other_)));
     }
-    template <class Value>
-    SumVisitor at_gates_of(Feature feature, const GateField& other, Value value) {
-        return [this, feature, value, gates = gates_elsewhere(field_, other, 1)](
+    SumVisitor at_gates_of_other(Feature feature, const SumFeature& how) {
+        return [this, feature, how, gates = GatesElsewhere(field_, other_, 1)](
                    std::size_t radial, const std::uint32_t* sums) {
-            visit_radial(feature, radial, [&](std::uint32_t gate) {
-                return gates[gate] >= 0 ? value(BoxSum(sums[gates[gate]])) : missing;
-            });
+            visit_sums(feature, radial, gates, sums, how);
         };
     }
-
-    // Visits the gates here whose radial is the given one elsewhere, where `numbers` are.
-    template <class Number, class Value>
-    void visit_from(Feature feature, const Elsewhere& place, std::size_t there,
-                    const Number* numbers, Value value) {
-        for (const std::uint32_t radial : place.radials_of(there))
-            visit_radial(feature, radial, [&](std::uint32_t gate) {
-                const std::int32_t at = place.gate(gate);
-                return at >= 0 ? value(numbers[at]) : missing;
-            });
+    // Visits a radial whose sums are those of other gates.
+    void visit_sums(Feature feature, std::size_t radial, const GatesElsewhere& gates,
+                    const std::uint32_t* sums, const SumFeature& how) {
+        visit_placed(feature, radial, gates, sums, sums_, [&](float* values) {
+            features_of_sums(sums_.data(), sums_.size(), how, values);
+        });
     }
+    // Visits a radial: `write` writes the values of the numbers taken at other gates.
+    template <class Number, class Write>
+    void visit_placed(Feature feature, std::size_t radial, const GatesElsewhere& gates,
+                      const Number* there, std::vector<Number>& numbers, Write write) {
+        const auto here = echo_.of(radial);
+        const auto placed = gates.take(here, there, numbers);
+        const auto before = static_cast<std::size_t>(placed.data() - here.data());
+        values_.resize(here.size());
+        std::fill_n(values_.begin(), before, missing);
+        std::fill(values_.begin() + static_cast<std::ptrdiff_t>(before + placed.size()),
+                  values_.end(), missing);
+        write(values_.data() + before);
+        visit_(feature, radial, values_);
+    }
+
     void visit_without_place(Feature feature, const Elsewhere& place) {
         for (const std::uint32_t radial : place.radials_without())
             visit_radial(feature, radial, [](std::uint32_t) { return missing; });
     }
     // Gets the sums of another sweep.
-    template <class Value>
-    SumVisitor at_place(Feature feature, const Elsewhere& place, Value value) {
+    SumVisitor at_place(Feature feature, const Elsewhere& place, const SumFeature& how) {
         visit_without_place(feature, place);
-        return [this, feature, &place, value](std::size_t there, const std::uint32_t* sums) {
-            visit_from(feature, place, there, sums,
-                       [&](std::uint32_t bits) { return value(BoxSum(bits)); });
+        return [this, feature, &place, how](std::size_t there, const std::uint32_t* sums) {
+            for (const std::uint32_t radial : place.radials_of(there))
+                visit_sums(feature, radial, place.gates(), sums, how);
         };
     }
     void visit_above() {
         const auto above = sweep_above(volume_, sweep_number_);
         if (!above) return visit_missing(Feature::reflectivity_above);
         const level2::Sweep& sweep = volume_.sweeps[*above];
-        const GateField field = gate_field(sweep, *sweep.find(Moment::ref));
-        if (field.is_empty()) return visit_missing(Feature::reflectivity_above);
+        if (!read_other(sweep, Moment::ref)) return visit_missing(Feature::reflectivity_above);
         // The same place on the ground is at a longer range there.
         constexpr double radian = std::numbers::pi / 180;
         const double stretch = std::cos(sweep_.mean_elevation_deg() * radian) /
                                std::cos(sweep.mean_elevation_deg() * radian);
-        const Elsewhere place(nearest_radials(azimuths_of(sweep_), sweep), field.radials,
-                              gates_elsewhere(field_, field, stretch));
-        visit_code_sums(field, gate_box(3, 1250, field),
-                        at_place(Feature::reflectivity_above, place, mean(field)));
+        const Elsewhere place(nearest_radials(azimuths_of(sweep_), sweep), other_.radials,
+                              GatesElsewhere(field_, other_, stretch));
+        visit_code_sums(other_, gate_box(3, 1250, other_),
+                        at_place(Feature::reflectivity_above, place, mean(other_)));
     }
     void visit_doppler() {
         const auto companion =
             companion_sweep(volume_, sweep_number_, sweep_.mean_elevation_deg(), Moment::vel);
-        const level2::Sweep* sweep = companion ? &volume_.sweeps[*companion] : nullptr;
-        const GateField velocity =
-            sweep != nullptr ? gate_field(*sweep, *sweep->find(Moment::vel)) : GateField{};
-        if (velocity.is_empty()) {
+        if (!companion || !read_other(volume_.sweeps[*companion], Moment::vel)) {
             for (const Feature feature :
                  {Feature::speed, Feature::speed_texture, Feature::speed_share, Feature::width})
                 visit_missing(feature);
             return;
         }
-        const auto radials = nearest_radials(azimuths_of(sweep_), *sweep);
-        const Elsewhere place(radials, velocity.radials, gates_elsewhere(field_, velocity, 1));
+        const level2::Sweep& sweep = volume_.sweeps[*companion];
+        const auto radials = nearest_radials(azimuths_of(sweep_), sweep);
+        const Elsewhere place(radials, other_.radials, GatesElsewhere(field_, other_, 1));
+        visit_speed(place);
+        const GateBox box = gate_box(3, 1750, other_);
+        visit_difference_sums(other_, box, Direction::range, 2 * sweep.radials.front().nyquist_mps,
+                              at_place(Feature::speed_texture, place, root_mean(other_)));
+        visit_code_sums(other_, box, at_place(Feature::speed_share, place, share(box)));
+        visit_width(sweep, radials);
+    }
+    void visit_speed(const Elsewhere& place) {
         visit_without_place(Feature::speed, place);
-        for (std::size_t there = 0; there < velocity.radials; ++there)
-            visit_from(Feature::speed, place, there, velocity.row(there), [&](std::uint16_t code) {
-                return code != 0 ? std::abs(velocity.value_of(code)) : missing;
-            });
-        const GateBox box = gate_box(3, 1750, velocity);
-        visit_difference_sums(velocity, box, Direction::range,
-                              2 * sweep->radials.front().nyquist_mps,
-                              at_place(Feature::speed_texture, place, root_mean(velocity)));
-        visit_code_sums(velocity, box, at_place(Feature::speed_share, place, share(box)));
-        visit_width(*sweep, radials);
+        for (std::size_t there = 0; there < other_.radials; ++there)
+            for (const std::uint32_t radial : place.radials_of(there))
+                visit_placed(Feature::speed, radial, place.gates(), other_.row(there), codes_,
+                             [&](float* speeds) {
+                                 for (std::size_t i = 0; i < codes_.size(); ++i)
+                                     speeds[i] = codes_[i] != 0
+                                                     ? std::abs(other_.value_of(codes_[i]))
+                                                     : missing;
+                             });
     }
     void visit_width(const level2::Sweep& sweep, const std::vector<std::int32_t>& radials) {
-        const level2::SweepMoment* moment = sweep.find(Moment::sw);
-        const GateField width = moment != nullptr ? gate_field(sweep, *moment) : GateField{};
-        if (width.is_empty()) return visit_missing(Feature::width);
-        const Elsewhere place(radials, width.radials, gates_elsewhere(field_, width, 1));
-        visit_code_sums(width, gate_box(3, 1750, width),
-                        at_place(Feature::width, place, mean(width)));
+        if (!read_other(sweep, Moment::sw)) return visit_missing(Feature::width);
+        const Elsewhere place(radials, other_.radials, GatesElsewhere(field_, other_, 1));
+        visit_code_sums(other_, gate_box(3, 1750, other_),
+                        at_place(Feature::width, place, mean(other_)));
     }
 
     const level2::Volume& volume_;
@@ -267,8 +311,12 @@ class FeatureMaker {
     std::size_t sweep_number_;
     const GateField& field_;
     const EchoGates& echo_;
+    GateField& other_;  // another moment, of this sweep or another one
     const FeatureVisitor& visit_;
+    // Of one radial, to reuse their memory.
     std::vector<float> values_;
+    std::vector<std::uint32_t> sums_;
+    std::vector<std::uint16_t> codes_;
 };
 
 }  // namespace
@@ -299,10 +347,10 @@ EchoGates::EchoGates(const GateField& field, std::span<const float> probabilitie
 
 template <class IsTaken>
 void EchoGates::take(const GateField& field, IsTaken is_taken) {
+    gates_.resize(std::reduce(field.ends.begin(), field.ends.end()));
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
-        const std::size_t end = field.end_of_values(radial);
+        const std::size_t end = field.ends[radial];
         std::size_t count = begins_[radial];
-        gates_.resize(std::max(gates_.size(), count + end));
         // Branches on echo are hard to predict, so write each gate and count those that are taken.
         for (std::size_t gate = 0; gate < end; ++gate) {
             gates_[count] = static_cast<std::uint32_t>(gate);
@@ -314,8 +362,9 @@ void EchoGates::take(const GateField& field, IsTaken is_taken) {
 }
 
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                    const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit) {
-    FeatureMaker maker(volume, sweep, field, echo, visit);
+                    const EchoGates& echo, QualityRule rule, GateField& scratch,
+                    const FeatureVisitor& visit) {
+    FeatureMaker maker(volume, sweep, field, echo, scratch, visit);
     if (rule == QualityRule::dual)
         maker.visit_dual();
     else
@@ -323,8 +372,9 @@ void visit_features(const level2::Volume& volume, std::size_t sweep, const GateF
 }
 
 void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                         const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit) {
-    FeatureMaker(volume, sweep, field, echo, visit).visit_for_kinds(rule);
+                         const EchoGates& echo, QualityRule rule, GateField& scratch,
+                         const FeatureVisitor& visit) {
+    FeatureMaker(volume, sweep, field, echo, scratch, visit).visit_for_kinds(rule);
 }
 
 }  // namespace stormcellar::retrieve

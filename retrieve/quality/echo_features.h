@@ -68,14 +68,17 @@ using FeatureVisitor =
 
 // Visits the features of a rule, one after the other. `field` is a reflectivity moment of the
 // sweep, and `echo` has its gates. Doppler features come from the sweep itself or from the sweep of
-// nearest elevation, at most 0.3 degrees away; they are missing if there is none.
+// nearest elevation, at most 0.3 degrees away; they are missing if there is none. Other moments are
+// read into `scratch`, whose memory serves all sweeps.
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                    const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit);
+                    const EchoGates& echo, QualityRule rule, GateField& scratch,
+                    const FeatureVisitor& visit);
 
 // Visits the features that name what is not weather (stormcellar/retrieve/echo_kinds.h) in the same
 // way: reflectivity, height, range_texture, echo_share, reflectivity_above and the Doppler
 // features, and for the dual rule correlation and phase_texture.
 void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                         const EchoGates& echo, QualityRule rule, const FeatureVisitor& visit);
+                         const EchoGates& echo, QualityRule rule, GateField& scratch,
+                         const FeatureVisitor& visit);
 
 }  // namespace stormcellar::retrieve

@@ -19,11 +19,11 @@ namespace {
 class FeatureColumns {
   public:
     FeatureColumns(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                   const EchoGates& echo, QualityRule rule) {
+                   const EchoGates& echo, QualityRule rule, GateField& scratch) {
         for (std::vector<float>& column : columns_)
             column.assign(echo.count(), std::numeric_limits<float>::quiet_NaN());
         visit_kind_features(
-            volume, sweep, field, echo, rule,
+            volume, sweep, field, echo, rule, scratch,
             [&](Feature feature, std::size_t radial, std::span<const float> of) {
                 std::ranges::copy(
                     of, column(feature).begin() + static_cast<std::ptrdiff_t>(echo.begin(radial)));
@@ -196,7 +196,8 @@ class KindNamer {
         const EchoGates left(field, probabilities, least_);
         const SweepFacts facts = facts_of(quality.sweep);
         const FeatureColumns columns(volume_, quality.sweep, field, left,
-                                     facts.has_dual ? QualityRule::dual : QualityRule::single);
+                                     facts.has_dual ? QualityRule::dual : QualityRule::single,
+                                     scratch_);
         const std::vector<Spoke> spokes = find_spokes(field, sweep, sun_of(sweep));
         SweepKinds made{quality.sweep, quality.moment, {}};
         made.kinds.resize(field.codes.size());
@@ -234,6 +235,7 @@ class KindNamer {
     double lowest_deg_ = std::numeric_limits<double>::quiet_NaN();
     std::optional<bool> bloom_;
     std::vector<SweepKinds> named_;
+    GateField scratch_;
 };
 
 }  // namespace

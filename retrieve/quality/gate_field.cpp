@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "retrieve/quality/gate_loops.h"
+
 namespace stormcellar::retrieve {
 namespace {
-
-constexpr std::uint32_t one_number = 1U << BoxSum::sum_bits;
 
 // Returns true if the gap between the last and the first radial is no wider than two radials.
 bool ends_meet(const level2::Sweep& sweep) {
@@ -19,7 +19,23 @@ bool ends_meet(const level2::Sweep& sweep) {
     return gap * static_cast<double>(radials) <= 2 * 360;
 }
 
-// Writes the numbers of a radial, each with one_number added, and 0 where there is none. Returns
+// Returns the number of codes up to the last one that is not 0.
+std::size_t end_of_values(const std::uint16_t* codes, std::size_t gates) {
+    // Skips empty blocks first, because compilers vectorize this loop.
+    constexpr std::size_t block = 64;
+    while (gates >= block) {
+        std::uint16_t any = 0;
+        for (std::size_t gate = gates - block; gate < gates; ++gate)
+            any |= codes[gate];
+        if (any != 0) break;
+        gates -= block;
+    }
+    while (gates > 0 && codes[gates - 1] == 0)
+        --gates;
+    return gates;
+}
+
+// Writes the numbers of a radial (retrieve/quality/gate_loops.h), 0 where there is none. Returns
 // how many it wrote; the rest of the radial has no numbers.
 using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
 
@@ -53,16 +69,12 @@ class BoxSums {
         const auto slot = static_cast<std::size_t>((place + slots) % slots);
         const auto oldest = static_cast<std::size_t>((place + slots + 1) % slots);
         std::uint32_t* row = rows_.data() + slot * field_.gates;
-        const std::uint32_t* old = rows_.data() + oldest * field_.gates;
-        ends_[slot] = sum_radial(place, row);
-        const std::size_t common = std::min(ends_[slot], ends_[oldest]);
-        std::uint32_t* total = total_.data();
-        for (std::size_t gate = 0; gate < common; ++gate)
-            total[gate] += row[gate] - old[gate];
-        for (std::size_t gate = common; gate < ends_[slot]; ++gate)
-            total[gate] += row[gate];
-        for (std::size_t gate = common; gate < ends_[oldest]; ++gate)
-            total[gate] -= old[gate];
+        const std::size_t end = sum_radial(place, row);
+        // A row is 0 from its end on, so that it can be added as far as a longer one.
+        if (end < ends_[slot]) std::fill(row + end, row + ends_[slot], 0U);
+        ends_[slot] = end;
+        exchange_rows(row, rows_.data() + oldest * field_.gates, std::max(end, ends_[oldest]),
+                      total_.data());
     }
     // Writes the sums along a radial. Returns the number of gates before the sums become 0.
     std::size_t sum_radial(int place, std::uint32_t* row) {
@@ -71,59 +83,22 @@ class BoxSums {
             if (!field_.is_circle || radials <= box_.radials) return 0;
             place = (place + radials) % radials;
         }
-        const auto radial = static_cast<std::size_t>(place);
-        const std::size_t values = fill_(radial, padded_.data() + half());
+        const auto half = static_cast<std::size_t>(box_.gates / 2);
+        std::uint32_t* numbers = padded_.data() + half;
+        const std::size_t values = fill_(static_cast<std::size_t>(place), numbers);
         if (values == 0) return 0;
-        const std::size_t end = std::min(values + half(), field_.gates);
-        std::fill_n(padded_.data(), half(), 0U);
-        std::fill_n(padded_.data() + half() + values, end + half() - values, 0U);
-        sum_along(row, end);
+        const std::size_t end = std::min(values + half, field_.gates);
+        std::fill_n(padded_.data(), half, 0U);
+        std::fill_n(numbers + values, end + half - values, 0U);
+        sum_windows(padded_.data(), end, static_cast<unsigned>(box_.gates), row);
         return end;
     }
-    // Sums the padded numbers over the gates of the box. Doubles the length of the sums as often
-    // as possible, and adds those that make up the length of the box.
-    void sum_along(std::uint32_t* row, std::size_t end) {
-        const std::size_t padded_end = end + 2 * half();
-        std::size_t length = 1, begin = 0;
-        bool is_first = true;
-        for (auto left = static_cast<unsigned>(box_.gates);; left >>= 1U) {
-            if ((left & 1U) != 0) {
-                const std::uint32_t* from = padded_.data() + begin;
-                if (is_first) {
-                    std::copy_n(from, end, row);
-                } else {
-                    for (std::size_t gate = 0; gate < end; ++gate)
-                        row[gate] += from[gate];
-                }
-                is_first = false;
-                begin += length;
-            }
-            if (left <= 1) return;
-            for (std::size_t i = 0; i + length < padded_end; ++i)
-                padded_[i] += padded_[i + length];
-            length *= 2;
-        }
-    }
-    [[nodiscard]] std::size_t half() const { return static_cast<std::size_t>(box_.gates / 2); }
 
     const GateField& field_;
     GateBox box_;
     const FillRow& fill_;
     std::vector<std::uint32_t> padded_, total_, rows_;
     std::vector<std::size_t> ends_;  // of rows_
-};
-
-// Differences of codes, in whole codes.
-struct Differ {
-    int turn = 0;  // codes around the circle
-    int most = 0;  // a larger difference counts as this
-
-    [[nodiscard]] std::uint32_t number(std::uint16_t a, std::uint16_t b) const {
-        int apart = std::abs(static_cast<int>(a) - static_cast<int>(b));
-        apart = std::min({apart, std::abs(turn - apart), most});
-        const bool has_both = a != 0 && b != 0;
-        return has_both ? one_number + static_cast<std::uint32_t>(apart * apart) : 0;
-    }
 };
 
 }  // namespace
@@ -133,26 +108,11 @@ std::int32_t GateField::gate_at(double range_m) const {
     return gate >= 0 && gate < static_cast<double>(gates) ? static_cast<std::int32_t>(gate) : -1;
 }
 
-std::size_t GateField::end_of_values(std::size_t radial) const {
-    const std::uint16_t* of_radial = row(radial);
-    std::size_t end = gates;
-    // Skips blocks without a value first, because compilers vectorize this loop.
-    constexpr std::size_t block = 64;
-    while (end >= block) {
-        std::uint16_t any = 0;
-        for (std::size_t gate = end - block; gate < end; ++gate)
-            any |= of_radial[gate];
-        if (any != 0) break;
-        end -= block;
-    }
-    while (end > 0 && of_radial[end - 1] == 0)
-        --end;
-    return end;
-}
-
-GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment) {
-    GateField field;
-    if (moment.gate_spacing_m <= 0 || moment.gate_stride <= 0) return field;
+void read_gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment,
+                     GateField& field) {
+    field.codes.clear();
+    field.ends.clear();
+    if (moment.gate_spacing_m <= 0 || moment.gate_stride <= 0) return;
     field.radials = sweep.radials.size();
     field.gates = static_cast<std::size_t>(moment.gate_stride);
     field.first_gate_m = moment.first_gate_m;
@@ -160,21 +120,24 @@ GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& mome
     field.scale = moment.scale != 0 ? moment.scale : 1;
     field.offset = moment.scale != 0 ? moment.offset : 0;
     field.is_circle = ends_meet(sweep);
-    field.codes.assign(field.radials * field.gates, 0);
+    field.codes.resize(field.radials * field.gates);
+    field.ends.resize(field.radials);
     const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
         const std::size_t begin = radial * field.gates, gates = moment.gate_counts[radial];
-        const auto keep = [to = field.codes.data() + begin, begin, gates,
-                           first_valid](const auto& codes) {
-            const auto* from = codes.data() + begin;
-            for (std::size_t gate = 0; gate < gates; ++gate)
-                to[gate] = from[gate] >= first_valid ? from[gate] : std::uint16_t{0};
-        };
+        std::uint16_t* to = field.codes.data() + begin;
         if (moment.word_size_bits == 8)
-            keep(moment.codes8);
+            keep_valid_codes(moment.codes8.data() + begin, gates, first_valid, to);
         else
-            keep(moment.codes16);
+            keep_valid_codes(moment.codes16.data() + begin, gates, first_valid, to);
+        std::fill(to + gates, to + field.gates, std::uint16_t{0});
+        field.ends[radial] = end_of_values(to, gates);
     }
+}
+
+GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment) {
+    GateField field;
+    read_gate_field(sweep, moment, field);
     return field;
 }
 
@@ -184,15 +147,10 @@ GateBox gate_box(int radials, double length_m, const GateField& field) {
 }
 
 void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit) {
-    const auto most = static_cast<std::int32_t>(BoxSum::most_sum) / box.size();
+    const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
     const FillRow fill = [&](std::size_t radial, std::uint32_t* numbers) {
-        const std::uint16_t* codes = field.row(radial);
-        const std::size_t end = field.end_of_values(radial);
-        for (std::size_t gate = 0; gate < end; ++gate) {
-            const std::int32_t code = codes[gate];
-            const auto number = static_cast<std::uint32_t>(std::min(code, most));
-            numbers[gate] = code != 0 ? one_number + number : 0;
-        }
+        const std::size_t end = field.ends[radial];
+        number_codes(field.row(radial), end, most, numbers);
         return end;
     };
     BoxSums(field, box, fill).visit(visit);
@@ -204,22 +162,20 @@ void visit_difference_sums(const GateField& field, const GateBox& box, Direction
     const int way_round = turn > 0 ? static_cast<int>(std::lround(turn * field.scale)) : 1 << 20;
     const auto most = static_cast<int>(
         std::sqrt(static_cast<double>(BoxSum::most_sum / static_cast<std::uint32_t>(box.size()))));
-    const Differ differ{way_round, most};
+    const CodeDifferences differences{way_round, most};
     const FillRow along_range = [&](std::size_t radial, std::uint32_t* numbers) {
         const std::uint16_t* codes = field.row(radial);
-        const std::size_t end = field.end_of_values(radial);
+        const std::size_t end = field.ends[radial];
+        if (end == 0) return std::size_t{0};
         numbers[0] = 0;
-        for (std::size_t gate = 1; gate < end; ++gate)
-            numbers[gate] = differ.number(codes[gate], codes[gate - 1]);
+        number_differences(codes + 1, codes, end - 1, differences, numbers + 1);
         return end;
     };
     const FillRow along_azimuth = [&](std::size_t radial, std::uint32_t* numbers) {
         if (radial == 0 && !field.is_circle) return std::size_t{0};
-        const std::uint16_t* codes = field.row(radial);
-        const std::uint16_t* before = field.row(radial == 0 ? field.radials - 1 : radial - 1);
-        const std::size_t end = field.end_of_values(radial);
-        for (std::size_t gate = 0; gate < end; ++gate)
-            numbers[gate] = differ.number(codes[gate], before[gate]);
+        const std::size_t before = radial == 0 ? field.radials - 1 : radial - 1;
+        const std::size_t end = std::min(field.ends[radial], field.ends[before]);
+        number_differences(field.row(radial), field.row(before), end, differences, numbers);
         return end;
     };
     BoxSums(field, box, direction == Direction::range ? along_range : along_azimuth).visit(visit);

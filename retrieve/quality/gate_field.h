@@ -27,6 +27,7 @@ struct GateField {
     float scale = 1, offset = 0;       // value = (code - offset) / scale
     bool is_circle = false;            // the last radial is next to the first
     std::vector<std::uint16_t> codes;  // radials x gates; 0 where there is no value
+    std::vector<std::size_t> ends;     // per radial, the gates up to the last one with a value
 
     [[nodiscard]] bool is_empty() const { return codes.empty(); }
     [[nodiscard]] const std::uint16_t* row(std::size_t radial) const {
@@ -38,8 +39,6 @@ struct GateField {
     // Returns the number of the gate at a range, or -1 if the range is outside the field.
     [[nodiscard]] std::int32_t gate_at(double range_m) const;
     [[nodiscard]] float value_of(float code) const { return (code - offset) / scale; }
-    // Returns the number of gates of a radial up to the last one that has a value.
-    [[nodiscard]] std::size_t end_of_values(std::size_t radial) const;
     // Returns NaN if there is no value.
     [[nodiscard]] float value(std::size_t radial, std::size_t gate) const {
         const std::uint16_t code = row(radial)[gate];
@@ -49,6 +48,9 @@ struct GateField {
 
 // Returns the valid codes of a moment of the sweep. Empty if the moment has no gates.
 [[nodiscard]] GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment);
+// Reads them into a field whose memory is used again.
+void read_gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment,
+                     GateField& field);
 
 // A box of radials x gates about a gate; both numbers are odd. Rows follow the order of arrival,
 // and gaps in azimuth do not count. Gates outside the sweep have no value.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "base/memory.h"
 #include "retrieve/quality/additive_rule.h"
 #include "retrieve/quality/dual_source.h"
 #include "retrieve/quality/echo_features.h"
@@ -18,21 +19,6 @@ namespace {
 using level2::Moment;
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
-
-std::vector<float> judged(const level2::Volume& volume, std::size_t sweep, const GateField& field,
-                          QualityRule rule, const RuleTables& tables) {
-    const EchoGates echo(field);
-    std::vector<float> log_odds(echo.count(), tables.constant());
-    visit_features(volume, sweep, field, echo, rule,
-                   [&](Feature feature, std::size_t radial, std::span<const float> values) {
-                       tables.add(feature, values, log_odds.data() + echo.begin(radial));
-                   });
-    std::vector<float> probabilities(field.codes.size(), no_value);
-    for (std::size_t radial = 0, i = 0; radial < field.radials; ++radial)
-        for (const std::uint32_t gate : echo.of(radial))
-            probabilities[radial * field.gates + gate] = 1 / (1 + std::exp(-log_odds[i++]));
-    return probabilities;
-}
 
 class QualityMaker {
   public:
@@ -59,13 +45,29 @@ class QualityMaker {
         const bool is_dual = !only_single_ && has_dual_polarization(from);
         for (std::size_t moment = 0; moment < from.moments.size(); ++moment) {
             if (from.moments[moment].moment != Moment::ref) continue;
-            const GateField field = gate_field(from, from.moments[moment]);
-            if (field.is_empty()) continue;
+            read_gate_field(from, from.moments[moment], field_);
+            if (field_.is_empty()) continue;
             made_.push_back(
-                {sweep, moment,
-                 judged(volume_, sweep, field, is_dual ? QualityRule::dual : QualityRule::single,
-                        is_dual ? dual_ : single_)});
+                {sweep, moment, judged(sweep, is_dual ? QualityRule::dual : QualityRule::single)});
         }
+    }
+    // Returns the probabilities of field_, a moment of the sweep.
+    std::vector<float> judged(std::size_t sweep, QualityRule rule) {
+        const RuleTables& tables = rule == QualityRule::dual ? dual_ : single_;
+        const EchoGates echo(field_);
+        log_odds_.assign(echo.count(), tables.constant());
+        visit_features(volume_, sweep, field_, echo, rule, other_,
+                       [&](Feature feature, std::size_t radial, std::span<const float> values) {
+                           tables.add(feature, values, log_odds_.data() + echo.begin(radial));
+                       });
+        std::vector<float> probabilities;
+        probabilities.reserve(field_.codes.size());
+        prefer_large_pages(probabilities.data(), field_.codes.size() * sizeof(float));
+        probabilities.assign(field_.codes.size(), no_value);
+        for (std::size_t radial = 0, i = 0; radial < field_.radials; ++radial)
+            for (const std::uint32_t gate : echo.of(radial))
+                probabilities[radial * field_.gates + gate] = 1 / (1 + std::exp(-log_odds_[i++]));
+        return probabilities;
     }
     void copy(std::size_t sweep, std::size_t from, std::size_t judged_count) {
         const level2::Sweep& to = volume_.sweeps[sweep];
@@ -75,9 +77,9 @@ class QualityMaker {
         const level2::SweepMoment& there = volume_.sweeps[from].moments[source->moment];
         for (std::size_t moment = 0; moment < to.moments.size(); ++moment) {
             if (to.moments[moment].moment != Moment::ref) continue;
-            const GateField field = gate_field(to, to.moments[moment]);
+            read_gate_field(to, to.moments[moment], field_);
             made_.push_back({sweep, moment,
-                             taken_values(field, to, there, volume_.sweeps[from],
+                             taken_values(field_, to, there, volume_.sweeps[from],
                                           source->probabilities, no_value)});
         }
     }
@@ -87,6 +89,9 @@ class QualityMaker {
     RuleTables dual_{taught_rule(QualityRule::dual)};
     RuleTables single_{taught_rule(QualityRule::single)};
     std::vector<SweepQuality> made_;
+    // Of one sweep, to reuse their memory.
+    GateField field_, other_;
+    std::vector<float> log_odds_;
 };
 
 }  // namespace

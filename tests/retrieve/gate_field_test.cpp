@@ -19,12 +19,15 @@ GateField random_field(bool is_circle) {
     field.scale = 2;
     field.offset = 66;
     field.is_circle = is_circle;
-    for (std::size_t radial = 0; radial < field.radials; ++radial)
+    for (std::size_t radial = 0; radial < field.radials; ++radial) {
+        std::size_t& end = field.ends.emplace_back(0);
         for (std::size_t gate = 0; gate < field.gates; ++gate) {
             const bool has_code = gate < radial * 29 % 160 && random() % 10 < 7;
             field.codes.push_back(has_code ? static_cast<std::uint16_t>(2 + random() % 120)
                                            : std::uint16_t{0});
+            if (has_code) end = gate + 1;
         }
+    }
     return field;
 }
 
@@ -122,6 +125,7 @@ TEST(GateField, LargeNumbersOfALargeBoxDoNotOverflow) {
     GateField field = random_field(true);
     for (std::size_t i = 0; i < field.codes.size(); ++i)
         field.codes[i] = i % 2 == 0 ? 65535 : 2;
+    field.ends.assign(field.radials, field.gates);
     const GateBox box{9, 33};
     const auto most = static_cast<float>(BoxSum::most_sum / 297);
     visit_code_sums(field, box, [&](std::size_t, const std::uint32_t* sums) {
