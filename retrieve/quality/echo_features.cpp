@@ -16,6 +16,7 @@ namespace {
 
 using level2::Moment;
 
+constexpr GateBox one_gate{1, 1};
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 // The gates of another field that have the ranges of the gates here, times a factor.
@@ -33,12 +34,10 @@ class GatesElsewhere {
                                           gates_.begin());
     }
     // Writes the numbers there of the gates here that have a place, and returns which these are.
-    template <class Number>
-    std::span<const std::uint32_t> take(std::span<const std::uint32_t> here, const Number* there,
-                                        std::vector<Number>& numbers) const {
+    std::span<const std::uint32_t> take(std::span<const std::uint32_t> here,
+                                        const std::uint32_t* there, std::uint32_t* numbers) const {
         const auto from = std::ranges::lower_bound(here, begin_);
         const auto placed = std::span(from, std::ranges::lower_bound(here, end_));
-        numbers.resize(placed.size());
         for (std::size_t i = 0; i < placed.size(); ++i)
             numbers[i] = there[gates_[placed[i]]];
         return placed;
@@ -78,9 +77,12 @@ class Elsewhere {
     GatesElsewhere gates_;
 };
 
-// The three ways from a sum to a feature.
+// The ways from a sum to a feature.
 SumFeature mean(const GateField& field) {
     return {SumFeature::Kind::mean, field.scale, field.offset};
+}
+SumFeature magnitude(const GateField& field) {
+    return {SumFeature::Kind::magnitude, field.scale, field.offset};
 }
 SumFeature root_mean(const GateField& field) {
     return {SumFeature::Kind::root_mean, field.scale};
@@ -99,79 +101,84 @@ class FeatureMaker {
           field_(field),
           echo_(echo),
           other_(scratch),
-          visit_(visit) {}
+          visit_(visit),
+          values_(field.gates),
+          sums_(field.gates) {}
 
     void visit_dual() {
-        visit_reflectivity();
+        BoxSums codes = BoxSums::of_codes(field_, one_gate);
+        for (std::size_t radial = 0; radial < field_.radials; ++radial)
+            visit_own(Feature::reflectivity, radial, codes.next(), mean(field_));
         visit_correlation();
-        visit_own_sums(Moment::zdr, Feature::zdr_texture, 2250, &FeatureMaker::sum_differences);
-        visit_phase_texture();
+        visit_own_texture(Moment::zdr, Feature::zdr_texture);
+        visit_own_texture(Moment::phi, Feature::phase_texture);
     }
 
     void visit_single() {
-        visit_reflectivity();
-        visit_height();
-        visit_texture(Direction::range, Feature::range_texture);
-        visit_texture(Direction::azimuth, Feature::azimuth_texture);
-        const GateBox wide = wide_box();
-        const SumVisitor to_mean = at_own_gates(Feature::mean_reflectivity, mean(field_));
-        const SumVisitor to_share = at_own_gates(Feature::echo_share, share(wide));
-        visit_code_sums(field_, wide, [&](std::size_t radial, const std::uint32_t* sums) {
-            to_mean(radial, sums);
-            to_share(radial, sums);
-        });
+        const GateBox box = texture_box(field_), wide = wide_box();
+        BoxSums codes = BoxSums::of_codes(field_, one_gate);
+        BoxSums along = BoxSums::of_differences(field_, box, Direction::range);
+        BoxSums across = BoxSums::of_differences(field_, box, Direction::azimuth);
+        BoxSums about = BoxSums::of_codes(field_, wide);
+        const std::vector<float> heights = heights_m();
+        // All features of a radial come together, because its numbers are then near the processor.
+        for (std::size_t radial = 0; radial < field_.radials; ++radial) {
+            visit_own(Feature::reflectivity, radial, codes.next(), mean(field_));
+            visit_height(radial, heights);
+            visit_own(Feature::range_texture, radial, along.next(), root_mean(field_));
+            visit_own(Feature::azimuth_texture, radial, across.next(), root_mean(field_));
+            const std::uint32_t* sums = about.next();
+            visit_own(Feature::mean_reflectivity, radial, sums, mean(field_));
+            visit_own(Feature::echo_share, radial, sums, share(wide));
+        }
         visit_above();
         visit_doppler();
     }
 
     void visit_for_kinds(QualityRule rule) {
-        visit_reflectivity();
-        visit_height();
-        visit_texture(Direction::range, Feature::range_texture);
         const GateBox wide = wide_box();
-        visit_code_sums(field_, wide, at_own_gates(Feature::echo_share, share(wide)));
+        BoxSums codes = BoxSums::of_codes(field_, one_gate);
+        BoxSums along = BoxSums::of_differences(field_, texture_box(field_), Direction::range);
+        BoxSums about = BoxSums::of_codes(field_, wide);
+        const std::vector<float> heights = heights_m();
+        for (std::size_t radial = 0; radial < field_.radials; ++radial) {
+            visit_own(Feature::reflectivity, radial, codes.next(), mean(field_));
+            visit_height(radial, heights);
+            visit_own(Feature::range_texture, radial, along.next(), root_mean(field_));
+            visit_own(Feature::echo_share, radial, about.next(), share(wide));
+        }
         visit_above();
         visit_doppler();
         if (rule == QualityRule::single) return;
         visit_correlation();
-        visit_phase_texture();
+        visit_own_texture(Moment::phi, Feature::phase_texture);
     }
 
   private:
     [[nodiscard]] GateBox wide_box() const { return gate_box(9, 8250, field_); }
-    void visit_texture(Direction direction, Feature feature) {
-        visit_difference_sums(field_, gate_box(3, 1750, field_), direction, 0,
-                              at_own_gates(feature, root_mean(field_)));
+    [[nodiscard]] static GateBox texture_box(const GateField& field) {
+        return gate_box(3, 1750, field);
     }
-    void visit_correlation() {
-        visit_own_sums(Moment::rho, Feature::correlation, 1250, &FeatureMaker::sum_codes);
-    }
-    void visit_phase_texture() {
-        visit_own_sums(Moment::phi, Feature::phase_texture, 2250, &FeatureMaker::sum_differences);
+    // Calls the visitor with the first of values_.
+    void visit_values(Feature feature, std::size_t radial) {
+        visit_(feature, radial, std::span(values_).first(echo_.of(radial).size()));
     }
     // Calls the visitor with what `value` gives for each gate with echo of a radial.
     template <class Value>
     void visit_radial(Feature feature, std::size_t radial, Value value) {
         const auto gates = echo_.of(radial);
-        values_.resize(gates.size());
         for (std::size_t i = 0; i < gates.size(); ++i)
             values_[i] = value(gates[i]);
-        visit_(feature, radial, values_);
+        visit_values(feature, radial);
     }
-    template <class Value>
-    void visit_all(Feature feature, Value value) {
-        for (std::size_t radial = 0; radial < field_.radials; ++radial)
-            visit_radial(feature, radial, [&](std::uint32_t gate) { return value(radial, gate); });
+    void visit_missing(Feature feature, std::size_t radial) {
+        visit_radial(feature, radial, [](std::uint32_t) { return missing; });
     }
     void visit_missing(Feature feature) {
-        visit_all(feature, [](std::size_t, std::uint32_t) { return missing; });
+        for (std::size_t radial = 0; radial < field_.radials; ++radial)
+            visit_missing(feature, radial);
     }
-    void visit_reflectivity() {
-        visit_all(Feature::reflectivity, [&](std::size_t radial, std::uint32_t gate) {
-            return field_.value(radial, gate);
-        });
-    }
-    void visit_height() {
+    [[nodiscard]] std::vector<float> heights_m() const {
         // The latitude hardly matters: it changes heights by less than 0.2 %.
         const grid::BeamGeometry beam(40, 0);
         const double elevation = sweep_.mean_elevation_deg();
@@ -179,25 +186,38 @@ class FeatureMaker {
         for (std::size_t gate = 0; gate < heights.size(); ++gate)
             heights[gate] =
                 static_cast<float>(beam.forward({field_.range_m(gate), elevation}).height_m);
-        visit_all(Feature::height, [&](std::size_t, std::uint32_t gate) { return heights[gate]; });
+        return heights;
     }
-    SumVisitor at_own_gates(Feature feature, const SumFeature& how) {
-        return [this, feature, how](std::size_t radial, const std::uint32_t* sums) {
-            const auto gates = echo_.of(radial);
-            sums_.resize(gates.size());
-            values_.resize(gates.size());
-            for (std::size_t i = 0; i < gates.size(); ++i)
-                sums_[i] = sums[gates[i]];
-            features_of_sums(sums_.data(), gates.size(), how, values_.data());
-            visit_(feature, radial, values_);
-        };
+    void visit_height(std::size_t radial, const std::vector<float>& heights) {
+        visit_radial(Feature::height, radial, [&](std::uint32_t gate) { return heights[gate]; });
+    }
+    void visit_own(Feature feature, std::size_t radial, const std::uint32_t* sums,
+                   const SumFeature& how) {
+        const auto gates = echo_.of(radial);
+        for (std::size_t i = 0; i < gates.size(); ++i)
+            sums_[i] = sums[gates[i]];
+        features_of_sums(sums_.data(), gates.size(), how, values_.data());
+        visit_values(feature, radial);
     }
 
     // Another moment of the same sweep has the same radials, and may have other gates.
-    using SumUp = void (FeatureMaker::*)(Feature, const GateBox&);
-    void visit_own_sums(Moment kind, Feature feature, double length_m, SumUp sum_up) {
+    void visit_correlation() {
+        if (!read_other(sweep_, Moment::rho)) return visit_missing(Feature::correlation);
+        visit_other(Feature::correlation, BoxSums::of_codes(other_, gate_box(3, 1250, other_)),
+                    mean(other_));
+    }
+    void visit_own_texture(Moment kind, Feature feature) {
         if (!read_other(sweep_, kind)) return visit_missing(feature);
-        (this->*sum_up)(feature, gate_box(3, length_m, other_));
+        const float turn = kind == Moment::phi ? 360 : 0;
+        visit_other(
+            feature,
+            BoxSums::of_differences(other_, gate_box(3, 2250, other_), Direction::range, turn),
+            root_mean(other_));
+    }
+    void visit_other(Feature feature, BoxSums sums, const SumFeature& how) {
+        const GatesElsewhere gates(field_, other_, 1);
+        for (std::size_t radial = 0; radial < field_.radials; ++radial)
+            visit_sums(feature, radial, gates, sums.next(), how);
     }
     // Reads another moment. Returns false if the sweep lacks it, or if it has no gates.
     bool read_other(const level2::Sweep& sweep, Moment kind) {
@@ -206,53 +226,35 @@ class FeatureMaker {
         read_gate_field(sweep, *moment, other_);
         return !other_.is_empty();
     }
-    void sum_codes(Feature feature, const GateBox& box) {
-        visit_code_sums(other_, box, at_gates_of_other(feature, mean(other_)));
-    }
-    void sum_differences(Feature feature, const GateBox& box) {
-        const float turn = feature == Feature::phase_texture ? 360 : 0;
-        visit_difference_sums(other_, box, Direction::range, turn,
-                              at_gates_of_other(feature, root_mean(other_)));
-    }
-    SumVisitor at_gates_of_other(Feature feature, const SumFeature& how) {
-        return [this, feature, how, gates = GatesElsewhere(field_, other_, 1)](
-                   std::size_t radial, const std::uint32_t* sums) {
-            visit_sums(feature, radial, gates, sums, how);
-        };
-    }
     // Visits a radial whose sums are those of other gates.
     void visit_sums(Feature feature, std::size_t radial, const GatesElsewhere& gates,
                     const std::uint32_t* sums, const SumFeature& how) {
-        visit_placed(feature, radial, gates, sums, sums_, [&](float* values) {
-            features_of_sums(sums_.data(), sums_.size(), how, values);
-        });
-    }
-    // Visits a radial: `write` writes the values of the numbers taken at other gates.
-    template <class Number, class Write>
-    void visit_placed(Feature feature, std::size_t radial, const GatesElsewhere& gates,
-                      const Number* there, std::vector<Number>& numbers, Write write) {
         const auto here = echo_.of(radial);
-        const auto placed = gates.take(here, there, numbers);
-        const auto before = static_cast<std::size_t>(placed.data() - here.data());
-        values_.resize(here.size());
-        std::fill_n(values_.begin(), before, missing);
-        std::fill(values_.begin() + static_cast<std::ptrdiff_t>(before + placed.size()),
-                  values_.end(), missing);
-        write(values_.data() + before);
-        visit_(feature, radial, values_);
+        const auto placed = gates.take(here, sums, sums_.data());
+        float* values = values_.data() + (placed.data() - here.data());
+        std::fill(values_.data(), values, missing);
+        features_of_sums(sums_.data(), placed.size(), how, values);
+        std::fill(values + placed.size(), values_.data() + here.size(), missing);
+        visit_values(feature, radial);
     }
 
-    void visit_without_place(Feature feature, const Elsewhere& place) {
+    // The sums of another sweep, and the feature that comes from them.
+    struct SumsThere {
+        Feature feature;
+        BoxSums sums;
+        SumFeature how;
+    };
+    // Visits the radials of other_, another sweep.
+    void visit_there(const Elsewhere& place, std::span<SumsThere> all) {
+        for (std::size_t there = 0; there < other_.radials; ++there)
+            for (SumsThere& one : all) {
+                const std::uint32_t* sums = one.sums.next();
+                for (const std::uint32_t radial : place.radials_of(there))
+                    visit_sums(one.feature, radial, place.gates(), sums, one.how);
+            }
         for (const std::uint32_t radial : place.radials_without())
-            visit_radial(feature, radial, [](std::uint32_t) { return missing; });
-    }
-    // Gets the sums of another sweep.
-    SumVisitor at_place(Feature feature, const Elsewhere& place, const SumFeature& how) {
-        visit_without_place(feature, place);
-        return [this, feature, &place, how](std::size_t there, const std::uint32_t* sums) {
-            for (const std::uint32_t radial : place.radials_of(there))
-                visit_sums(feature, radial, place.gates(), sums, how);
-        };
+            for (const SumsThere& one : all)
+                visit_missing(one.feature, radial);
     }
     void visit_above() {
         const auto above = sweep_above(volume_, sweep_number_);
@@ -265,8 +267,10 @@ class FeatureMaker {
                                std::cos(sweep.mean_elevation_deg() * radian);
         const Elsewhere place(nearest_radials(azimuths_of(sweep_), sweep), other_.radials,
                               GatesElsewhere(field_, other_, stretch));
-        visit_code_sums(other_, gate_box(3, 1250, other_),
-                        at_place(Feature::reflectivity_above, place, mean(other_)));
+        std::array all = {SumsThere{Feature::reflectivity_above,
+                                    BoxSums::of_codes(other_, gate_box(3, 1250, other_)),
+                                    mean(other_)}};
+        visit_there(place, all);
     }
     void visit_doppler() {
         const auto companion =
@@ -280,30 +284,23 @@ class FeatureMaker {
         const level2::Sweep& sweep = volume_.sweeps[*companion];
         const auto radials = nearest_radials(azimuths_of(sweep_), sweep);
         const Elsewhere place(radials, other_.radials, GatesElsewhere(field_, other_, 1));
-        visit_speed(place);
-        const GateBox box = gate_box(3, 1750, other_);
-        visit_difference_sums(other_, box, Direction::range, 2 * sweep.radials.front().nyquist_mps,
-                              at_place(Feature::speed_texture, place, root_mean(other_)));
-        visit_code_sums(other_, box, at_place(Feature::speed_share, place, share(box)));
+        const GateBox box = texture_box(other_);
+        std::array all = {
+            SumsThere{Feature::speed, BoxSums::of_codes(other_, one_gate), magnitude(other_)},
+            SumsThere{Feature::speed_texture,
+                      BoxSums::of_differences(other_, box, Direction::range,
+                                              2 * sweep.radials.front().nyquist_mps),
+                      root_mean(other_)},
+            SumsThere{Feature::speed_share, BoxSums::of_codes(other_, box), share(box)}};
+        visit_there(place, all);
         visit_width(sweep, radials);
-    }
-    void visit_speed(const Elsewhere& place) {
-        visit_without_place(Feature::speed, place);
-        for (std::size_t there = 0; there < other_.radials; ++there)
-            for (const std::uint32_t radial : place.radials_of(there))
-                visit_placed(Feature::speed, radial, place.gates(), other_.row(there), codes_,
-                             [&](float* speeds) {
-                                 for (std::size_t i = 0; i < codes_.size(); ++i)
-                                     speeds[i] = codes_[i] != 0
-                                                     ? std::abs(other_.value_of(codes_[i]))
-                                                     : missing;
-                             });
     }
     void visit_width(const level2::Sweep& sweep, const std::vector<std::int32_t>& radials) {
         if (!read_other(sweep, Moment::sw)) return visit_missing(Feature::width);
         const Elsewhere place(radials, other_.radials, GatesElsewhere(field_, other_, 1));
-        visit_code_sums(other_, gate_box(3, 1750, other_),
-                        at_place(Feature::width, place, mean(other_)));
+        std::array all = {SumsThere{Feature::width, BoxSums::of_codes(other_, texture_box(other_)),
+                                    mean(other_)}};
+        visit_there(place, all);
     }
 
     const level2::Volume& volume_;
@@ -313,10 +310,9 @@ class FeatureMaker {
     const EchoGates& echo_;
     GateField& other_;  // another moment, of this sweep or another one
     const FeatureVisitor& visit_;
-    // Of one radial, to reuse their memory.
+    // Of the gates with echo of one radial.
     std::vector<float> values_;
     std::vector<std::uint32_t> sums_;
-    std::vector<std::uint16_t> codes_;
 };
 
 }  // namespace

@@ -66,10 +66,10 @@ class EchoGates {
 using FeatureVisitor =
     std::function<void(Feature feature, std::size_t radial, std::span<const float> values)>;
 
-// Visits the features of a rule, one after the other. `field` is a reflectivity moment of the
-// sweep, and `echo` has its gates. Doppler features come from the sweep itself or from the sweep of
-// nearest elevation, at most 0.3 degrees away; they are missing if there is none. Other moments are
-// read into `scratch`, whose memory serves all sweeps.
+// Visits the features of a rule, those of a gate in their order. `field` is a reflectivity moment
+// of the sweep, and `echo` has its gates. Doppler features come from the sweep itself or from the
+// sweep of nearest elevation, at most 0.3 degrees away; they are missing if there is none. Other
+// moments are read into `scratch`, whose memory serves all sweeps.
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                     const EchoGates& echo, QualityRule rule, GateField& scratch,
                     const FeatureVisitor& visit);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "retrieve/quality/gate_loops.h"
 
@@ -34,72 +35,6 @@ std::size_t end_of_values(const std::uint16_t* codes, std::size_t gates) {
         --gates;
     return gates;
 }
-
-// Writes the numbers of a radial (retrieve/quality/gate_loops.h), 0 where there is none. Returns
-// how many it wrote; the rest of the radial has no numbers.
-using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
-
-// Sums numbers over boxes, one radial after another. Most radials have values in their first part
-// only, so that each step ends where the sums of its radials become 0.
-class BoxSums {
-  public:
-    BoxSums(const GateField& field, const GateBox& box, const FillRow& fill)
-        : field_(field),
-          box_(box),
-          fill_(fill),
-          padded_(field.gates + static_cast<std::size_t>(box.gates) - 1),
-          total_(field.gates, 0),
-          rows_(static_cast<std::size_t>(box.radials + 1) * field.gates, 0),
-          ends_(static_cast<std::size_t>(box.radials) + 1, 0) {}
-
-    void visit(const SumVisitor& visit) {
-        const int reach = box_.radials / 2;
-        for (int place = -reach; place < reach; ++place)
-            take(place);
-        for (int radial = 0; radial < static_cast<int>(field_.radials); ++radial) {
-            take(radial + reach);
-            visit(static_cast<std::size_t>(radial), total_.data());
-        }
-    }
-
-  private:
-    // Replaces the oldest radial of the box by the radial at a place, which may be beyond the ends.
-    void take(int place) {
-        const int slots = box_.radials + 1;
-        const auto slot = static_cast<std::size_t>((place + slots) % slots);
-        const auto oldest = static_cast<std::size_t>((place + slots + 1) % slots);
-        std::uint32_t* row = rows_.data() + slot * field_.gates;
-        const std::size_t end = sum_radial(place, row);
-        // A row is 0 from its end on, so that it can be added as far as a longer one.
-        if (end < ends_[slot]) std::fill(row + end, row + ends_[slot], 0U);
-        ends_[slot] = end;
-        exchange_rows(row, rows_.data() + oldest * field_.gates, std::max(end, ends_[oldest]),
-                      total_.data());
-    }
-    // Writes the sums along a radial. Returns the number of gates before the sums become 0.
-    std::size_t sum_radial(int place, std::uint32_t* row) {
-        const int radials = static_cast<int>(field_.radials);
-        if (place < 0 || place >= radials) {
-            if (!field_.is_circle || radials <= box_.radials) return 0;
-            place = (place + radials) % radials;
-        }
-        const auto half = static_cast<std::size_t>(box_.gates / 2);
-        std::uint32_t* numbers = padded_.data() + half;
-        const std::size_t values = fill_(static_cast<std::size_t>(place), numbers);
-        if (values == 0) return 0;
-        const std::size_t end = std::min(values + half, field_.gates);
-        std::fill_n(padded_.data(), half, 0U);
-        std::fill_n(numbers + values, end + half - values, 0U);
-        sum_windows(padded_.data(), end, static_cast<unsigned>(box_.gates), row);
-        return end;
-    }
-
-    const GateField& field_;
-    GateBox box_;
-    const FillRow& fill_;
-    std::vector<std::uint32_t> padded_, total_, rows_;
-    std::vector<std::size_t> ends_;  // of rows_
-};
 
 }  // namespace
 
@@ -146,39 +81,91 @@ GateBox gate_box(int radials, double length_m, const GateField& field) {
     return {radials, 2 * std::clamp(half, 1, 40) + 1};
 }
 
-void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit) {
-    const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
-    const FillRow fill = [&](std::size_t radial, std::uint32_t* numbers) {
-        const std::size_t end = field.ends[radial];
-        number_codes(field.row(radial), end, most, numbers);
-        return end;
-    };
-    BoxSums(field, box, fill).visit(visit);
+BoxSums::BoxSums(const GateField& field, const GateBox& box, FillRow fill)
+    : field_(&field),
+      box_(box),
+      fill_(std::move(fill)),
+      padded_(field.gates + static_cast<std::size_t>(box.gates) - 1),
+      total_(field.gates, 0),
+      rows_(static_cast<std::size_t>(box.radials + 1) * field.gates, 0),
+      ends_(static_cast<std::size_t>(box.radials) + 1, 0) {
+    const int reach = box.radials / 2;
+    for (int place = -reach; place < reach; ++place)
+        take(place);
 }
 
-void visit_difference_sums(const GateField& field, const GateBox& box, Direction direction,
-                           float turn, const SumVisitor& visit) {
+BoxSums BoxSums::of_codes(const GateField& field, const GateBox& box) {
+    const std::uint32_t most = BoxSum::most_sum / static_cast<std::uint32_t>(box.size());
+    return {field, box, [&field, most](std::size_t radial, std::uint32_t* numbers) {
+                const std::size_t end = field.ends[radial];
+                number_codes(field.row(radial), end, most, numbers);
+                return end;
+            }};
+}
+
+BoxSums BoxSums::of_differences(const GateField& field, const GateBox& box, Direction direction,
+                                float turn) {
     // Without a circle, the way round is never the shorter one.
     const int way_round = turn > 0 ? static_cast<int>(std::lround(turn * field.scale)) : 1 << 20;
     const auto most = static_cast<int>(
         std::sqrt(static_cast<double>(BoxSum::most_sum / static_cast<std::uint32_t>(box.size()))));
     const CodeDifferences differences{way_round, most};
-    const FillRow along_range = [&](std::size_t radial, std::uint32_t* numbers) {
-        const std::uint16_t* codes = field.row(radial);
-        const std::size_t end = field.ends[radial];
-        if (end == 0) return std::size_t{0};
-        numbers[0] = 0;
-        number_differences(codes + 1, codes, end - 1, differences, numbers + 1);
-        return end;
-    };
-    const FillRow along_azimuth = [&](std::size_t radial, std::uint32_t* numbers) {
-        if (radial == 0 && !field.is_circle) return std::size_t{0};
-        const std::size_t before = radial == 0 ? field.radials - 1 : radial - 1;
-        const std::size_t end = std::min(field.ends[radial], field.ends[before]);
-        number_differences(field.row(radial), field.row(before), end, differences, numbers);
-        return end;
-    };
-    BoxSums(field, box, direction == Direction::range ? along_range : along_azimuth).visit(visit);
+    if (direction == Direction::range)
+        return {field, box, [&field, differences](std::size_t radial, std::uint32_t* numbers) {
+                    const std::uint16_t* codes = field.row(radial);
+                    const std::size_t end = field.ends[radial];
+                    if (end == 0) return std::size_t{0};
+                    numbers[0] = 0;
+                    number_differences(codes + 1, codes, end - 1, differences, numbers + 1);
+                    return end;
+                }};
+    return {field, box, [&field, differences](std::size_t radial, std::uint32_t* numbers) {
+                if (radial == 0 && !field.is_circle) return std::size_t{0};
+                const std::size_t before = radial == 0 ? field.radials - 1 : radial - 1;
+                const std::size_t end = std::min(field.ends[radial], field.ends[before]);
+                number_differences(field.row(radial), field.row(before), end, differences, numbers);
+                return end;
+            }};
+}
+
+const std::uint32_t* BoxSums::next() {
+    take(next_ + box_.radials / 2);
+    ++next_;
+    return total_.data();
+}
+
+// Replaces the oldest radial of the box by the radial at a place, which may be beyond the ends.
+// Most radials have values in their first part only, so that each step ends where the sums of its
+// radials become 0.
+void BoxSums::take(int place) {
+    const int slots = box_.radials + 1;
+    const auto slot = static_cast<std::size_t>((place + slots) % slots);
+    const auto oldest = static_cast<std::size_t>((place + slots + 1) % slots);
+    std::uint32_t* row = rows_.data() + slot * field_->gates;
+    const std::size_t end = sum_radial(place, row);
+    // A row is 0 from its end on, so that it can be added as far as a longer one.
+    if (end < ends_[slot]) std::fill(row + end, row + ends_[slot], 0U);
+    ends_[slot] = end;
+    exchange_rows(row, rows_.data() + oldest * field_->gates, std::max(end, ends_[oldest]),
+                  total_.data());
+}
+
+// Writes the sums along a radial. Returns the number of gates before the sums become 0.
+std::size_t BoxSums::sum_radial(int place, std::uint32_t* row) {
+    const int radials = static_cast<int>(field_->radials);
+    if (place < 0 || place >= radials) {
+        if (!field_->is_circle || radials <= box_.radials) return 0;
+        place = (place + radials) % radials;
+    }
+    const auto half = static_cast<std::size_t>(box_.gates / 2);
+    std::uint32_t* numbers = padded_.data() + half;
+    const std::size_t values = fill_(static_cast<std::size_t>(place), numbers);
+    if (values == 0) return 0;
+    const std::size_t end = std::min(values + half, field_->gates);
+    std::fill_n(padded_.data(), half, 0U);
+    std::fill_n(numbers + values, end + half - values, 0U);
+    sum_windows(padded_.data(), end, static_cast<unsigned>(box_.gates), row);
+    return end;
 }
 
 }  // namespace stormcellar::retrieve

@@ -83,18 +83,36 @@ class BoxSum {
     std::uint32_t bits_;  // count, then sum
 };
 
-// Gets the sums about the gates of a radial, from which BoxSum is made.
-using SumVisitor = std::function<void(std::size_t radial, const std::uint32_t* sums)>;
-
-// Visits the sums of the codes in the box about each gate.
-void visit_code_sums(const GateField& field, const GateBox& box, const SumVisitor& visit);
-
 enum class Direction : std::uint8_t { range, azimuth };
 
-// Visits the sums of the squared differences between the codes of successive gates or radials.
-// `turn` is the length of the circle on which the values lie (twice the Nyquist velocity, 360
-// degrees), or 0.
-void visit_difference_sums(const GateField& field, const GateBox& box, Direction direction,
-                           float turn, const SumVisitor& visit);
+// Sums numbers over the box about each gate, one radial after another.
+class BoxSums {
+  public:
+    // Sums the codes. The field must outlive the sums.
+    [[nodiscard]] static BoxSums of_codes(const GateField& field, const GateBox& box);
+    // Sums the squared differences between the codes of successive gates or radials. `turn` is the
+    // length of the circle on which the values lie (twice the Nyquist velocity, 360 degrees), or 0.
+    [[nodiscard]] static BoxSums of_differences(const GateField& field, const GateBox& box,
+                                                Direction direction, float turn = 0);
+
+    // Returns the sums about the gates of the first radial, then of the second, and so on, from
+    // which BoxSum is made. They are valid until the next call.
+    const std::uint32_t* next();
+
+  private:
+    // Writes the numbers of a radial (gate_loops.h), 0 where there is none. Returns how many it
+    // wrote; the rest of the radial has no numbers.
+    using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
+    BoxSums(const GateField& field, const GateBox& box, FillRow fill);
+    void take(int place);
+    std::size_t sum_radial(int place, std::uint32_t* row);
+
+    const GateField* field_;
+    GateBox box_;
+    FillRow fill_;
+    int next_ = 0;
+    std::vector<std::uint32_t> padded_, total_, rows_;
+    std::vector<std::size_t> ends_;  // of rows_
+};
 
 }  // namespace stormcellar::retrieve

@@ -112,6 +112,8 @@ void features_of_sums(const std::uint32_t* HWY_RESTRICT sums, std::size_t number
     const hn::ScalableTag<float> f;
     const hn::RebindToUnsigned<decltype(f)> u;
     const hn::RebindToSigned<decltype(f)> s;
+    using Kind = SumFeature::Kind;
+    const bool is_root = feature.kind == Kind::root_mean;
     const auto sum_mask = hn::Set(u, BoxSum::most_sum);
     const auto nan = hn::Set(f, std::numeric_limits<float>::quiet_NaN());
     const auto scale = hn::Set(f, feature.scale), offset = hn::Set(f, feature.offset);
@@ -120,15 +122,14 @@ void features_of_sums(const std::uint32_t* HWY_RESTRICT sums, std::size_t number
         const auto bits = load_some(u, sums + i, number - i);
         const auto count = hn::ConvertTo(f, hn::BitCast(s, hn::ShiftRight<BoxSum::sum_bits>(bits)));
         auto value = hn::Div(count, all);
-        if (feature.kind != SumFeature::Kind::share) {
+        if (feature.kind != Kind::share) {
             // Divides by 1 where there is nothing, because 0 / 0 would raise a floating-point trap.
             const auto is_none = hn::RebindMask(f, hn::Eq(bits, hn::Zero(u)));
             const auto sum = hn::ConvertTo(f, hn::BitCast(s, hn::And(bits, sum_mask)));
             const auto mean = hn::Div(sum, hn::IfThenElse(is_none, one, count));
-            const auto known = feature.kind == SumFeature::Kind::mean
-                                   ? hn::Div(hn::Sub(mean, offset), scale)
-                                   : hn::Div(hn::Sqrt(mean), scale);
-            value = hn::IfThenElse(is_none, nan, known);
+            value = hn::Div(is_root ? hn::Sqrt(mean) : hn::Sub(mean, offset), scale);
+            if (feature.kind == Kind::magnitude) value = hn::Abs(value);
+            value = hn::IfThenElse(is_none, nan, value);
         }
         store_some(f, value, values + i, number - i);
     }
@@ -136,7 +137,8 @@ void features_of_sums(const std::uint32_t* HWY_RESTRICT sums, std::size_t number
 
 void add_entries(const float* HWY_RESTRICT values, std::size_t number, const StepTable& table,
                  float* HWY_RESTRICT totals) {
-    const hn::ScalableTag<float> f;
+    // Gathering more than eight entries at once takes longer on some processors.
+    const hn::CappedTag<float, 8> f;
     const hn::RebindToSigned<decltype(f)> s;
     const auto first = hn::Set(f, table.first), scale = hn::Set(f, table.steps_per_unit);
     const auto half = hn::Set(f, 0.5F), zero = hn::Zero(f);

@@ -42,10 +42,14 @@ void exchange_rows(const std::uint32_t* row, const std::uint32_t* old, std::size
 
 // Tells how a sum becomes a feature.
 struct SumFeature {
-    enum class Kind : std::uint8_t { mean, root_mean, share } kind = Kind::mean;
-    float scale = 1;  // mean: (mean - offset) / scale; root_mean: its root / scale
-    float offset = 0;
-    float all = 1;  // share: count / all
+    enum class Kind : std::uint8_t {
+        mean,       // (mean - offset) / scale
+        magnitude,  // the same without its sign
+        root_mean,  // root of the mean / scale
+        share,      // count / all
+    };
+    Kind kind = Kind::mean;
+    float scale = 1, offset = 0, all = 1;
 };
 // Writes the feature of each sum. A sum of nothing has no mean (NaN), and a share of 0.
 void features_of_sums(const std::uint32_t* sums, std::size_t count, const SumFeature& feature,

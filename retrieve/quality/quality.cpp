@@ -35,6 +35,14 @@ class QualityMaker {
         std::ranges::stable_sort(made_, {}, &SweepQuality::sweep);
         return std::move(made_);
     }
+    // Judges one sweep, and the sweep that it copies.
+    std::vector<SweepQuality> make(std::size_t sweep) {
+        const auto from = copied_from(sweep);
+        judge(from.value_or(sweep));
+        if (from) copy(sweep, *from, made_.size());
+        std::erase_if(made_, [sweep](const SweepQuality& made) { return made.sweep != sweep; });
+        return std::move(made_);
+    }
 
   private:
     [[nodiscard]] std::optional<std::size_t> copied_from(std::size_t sweep) const {
@@ -98,6 +106,11 @@ class QualityMaker {
 
 std::vector<SweepQuality> weather_probabilities(const level2::Volume& volume, bool only_single) {
     return QualityMaker(volume, only_single).make();
+}
+
+std::vector<SweepQuality> weather_probabilities_of(const level2::Volume& volume,
+                                                   std::size_t sweep) {
+    return QualityMaker(volume, false).make(sweep);
 }
 
 }  // namespace stormcellar::retrieve

@@ -54,6 +54,12 @@ Expected sum_box(const GateField& field, const GateBox& box, int radial, int gat
     return expected;
 }
 
+template <class Visit>
+void visit_sums(const GateField& field, BoxSums sums, Visit visit) {
+    for (std::size_t radial = 0; radial < field.radials; ++radial)
+        visit(radial, sums.next());
+}
+
 template <class Number>
 void expect_sums(const GateField& field, const GateBox& box, Number number, std::size_t radial,
                  const std::uint32_t* sums) {
@@ -81,11 +87,13 @@ TEST(GateField, SumsOfCodesAreThoseOfEachBox) {
         for (const GateBox box : {GateBox{3, 5}, GateBox{9, 33}, GateBox{1, 3}, GateBox{11, 79}}) {
             const GateField field = random_field(is_circle);
             std::size_t visited = 0;
-            visit_code_sums(field, box, [&](std::size_t radial, const std::uint32_t* sums) {
-                EXPECT_EQ(radial, visited++);
-                expect_sums(
-                    field, box, [&](int r, int g) { return code_at(field, r, g); }, radial, sums);
-            });
+            visit_sums(field, BoxSums::of_codes(field, box),
+                       [&](std::size_t radial, const std::uint32_t* sums) {
+                           EXPECT_EQ(radial, visited++);
+                           expect_sums(
+                               field, box, [&](int r, int g) { return code_at(field, r, g); },
+                               radial, sums);
+                       });
             EXPECT_EQ(visited, field.radials);
         }
 }
@@ -110,14 +118,14 @@ TEST(GateField, SumsOfDifferencesAreThoseOfEachBoxAlsoOnACircle) {
                 const int before = r == 0 ? static_cast<int>(field.radials) - 1 : r - 1;
                 return squared(code_at(field, r, g), code_at(field, before, g));
             };
-            visit_difference_sums(field, box, Direction::range, turn,
-                                  [&](std::size_t radial, const std::uint32_t* sums) {
-                                      expect_sums(field, box, along, radial, sums);
-                                  });
-            visit_difference_sums(field, box, Direction::azimuth, turn,
-                                  [&](std::size_t radial, const std::uint32_t* sums) {
-                                      expect_sums(field, box, across, radial, sums);
-                                  });
+            visit_sums(field, BoxSums::of_differences(field, box, Direction::range, turn),
+                       [&](std::size_t radial, const std::uint32_t* sums) {
+                           expect_sums(field, box, along, radial, sums);
+                       });
+            visit_sums(field, BoxSums::of_differences(field, box, Direction::azimuth, turn),
+                       [&](std::size_t radial, const std::uint32_t* sums) {
+                           expect_sums(field, box, across, radial, sums);
+                       });
         }
 }
 
@@ -128,17 +136,17 @@ TEST(GateField, LargeNumbersOfALargeBoxDoNotOverflow) {
     field.ends.assign(field.radials, field.gates);
     const GateBox box{9, 33};
     const auto most = static_cast<float>(BoxSum::most_sum / 297);
-    visit_code_sums(field, box, [&](std::size_t, const std::uint32_t* sums) {
+    visit_sums(field, BoxSums::of_codes(field, box), [&](std::size_t, const std::uint32_t* sums) {
         const BoxSum middle(sums[field.gates / 2]);
         EXPECT_EQ(middle.count(), 297);
         EXPECT_LE(middle.mean(), most);
     });
-    visit_difference_sums(field, box, Direction::range, 0,
-                          [&](std::size_t, const std::uint32_t* sums) {
-                              const BoxSum middle(sums[field.gates / 2]);
-                              EXPECT_EQ(middle.count(), 297);
-                              EXPECT_NEAR(middle.mean(), most, 0.02F * most);
-                          });
+    visit_sums(field, BoxSums::of_differences(field, box, Direction::range, 0),
+               [&](std::size_t, const std::uint32_t* sums) {
+                   const BoxSum middle(sums[field.gates / 2]);
+                   EXPECT_EQ(middle.count(), 297);
+                   EXPECT_NEAR(middle.mean(), most, 0.02F * most);
+               });
 }
 
 TEST(GateField, BoxesHaveAnOddNumberOfGatesAboutTheirLength) {

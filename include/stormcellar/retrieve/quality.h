@@ -46,5 +46,8 @@ struct SweepQuality {
 // dual-polarization moments aside, as if the radar had none.
 [[nodiscard]] std::vector<SweepQuality> weather_probabilities(const level2::Volume& volume,
                                                               bool only_single = false);
+// Computes those of one sweep alone, with the same results.
+[[nodiscard]] std::vector<SweepQuality> weather_probabilities_of(const level2::Volume& volume,
+                                                                 std::size_t sweep);
 
 }  // namespace stormcellar::retrieve
