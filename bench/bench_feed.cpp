@@ -1,8 +1,8 @@
 // bench_feed: plays the heaviest national hour of Level II to the real stormcellard.
 //
 // usage: bench_feed [--data DIR] [--work DIR] [--as growing|open|whole|chunks] [--speeds "1 16"]
-//        [--seconds N] [--sites N] [--moments "REF VELD"] [--full] [--soak-hours N] [--threads N]
-//        [--json] (bench/request.h)
+//        [--seconds N] [--sites N] [--moments "REF VELD"] [--quality P] [--full] [--soak-hours N]
+//        [--threads N] [--json] (bench/request.h)
 // A national feed (bench/national_feed.h) is made once, untimed, below --work. For each speed, the
 // stormcellard of this build starts there with its own directories, and grids every volume at 1 km
 // and 32 levels. Chunks that sites sent before the feed's clock began exist from the start. There
@@ -23,6 +23,7 @@
 //   held           share of the time during which the feed was paused
 //   cache_mib      largest size of the cache
 // --moments: the moments to grid, REF first, instead of REF alone. For VELD, the daemon dealiases.
+// --quality P: leaves out echo whose probability of weather is below P ([ingest] quality).
 // --sites N: uses only the first N of the 160 sites, for a trial. --soak-hours N: instead plays 16
 // sites over N hours of the feed's clock, as fast as the daemon can read them. Files, rows and
 // grids must agree at the end. --full: plays the whole hour at speed 1, and then 24 hours as for
@@ -60,11 +61,12 @@ constexpr const char* daemon_configuration =
     "[cache]\nbytes = \"2 GiB\"\n[log]\nlevel = \"warning\"\n[ingest]\nspacing_km = 1.0\n"
     "extent_km = [460, 460]\nlevels_km = \"0.5:16:0.5\"\n";
 
-std::string configuration_for(const std::vector<level2::Moment>& moments) {
+std::string configuration_for(const std::vector<level2::Moment>& moments, double quality) {
     std::string names;
     for (const level2::Moment moment : moments)
         names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", level2::moment_name(moment));
-    return fmt::format("{}moments = [{}]\n", daemon_configuration, names);
+    return fmt::format("{}moments = [{}]\nquality = {:.3f}\n", daemon_configuration, names,
+                       quality);
 }
 
 // Measures the CPU time of bunzip alone for the bytes of the feed.
@@ -113,6 +115,7 @@ struct Wanted {
     int sites = national_sites;
     std::vector<double> speeds;
     std::vector<level2::Moment> moments;
+    double quality = 0;  // keeps all echo
     double paced_s = default_paced_s, fast_s = default_fast_s;
 };
 
@@ -158,7 +161,7 @@ Status play(const NationalFeed& feed, const Wanted& wanted, StretchOptions optio
     DaemonProcess daemon(root);
     FeedRun run(feed, daemon);
     options.last_moment = wanted.moments.back();
-    const auto stretch = run.run(options, configuration_for(wanted.moments));
+    const auto stretch = run.run(options, configuration_for(wanted.moments, wanted.quality));
     if (!stretch) return pass_on(stretch);
     if (!daemon.stop())
         return fail(ErrorCode::internal, "the end was not clean: {}", root.native());
@@ -266,6 +269,9 @@ std::optional<Wanted> wanted_of(const Request& request) {
     }
     if (wanted.moments.empty() || wanted.moments.front() != level2::Moment::ref)
         return std::nullopt;
+    std::istringstream quality(request.value("--quality").value_or("0"));
+    if (!(quality >> wanted.quality) || wanted.quality < 0 || wanted.quality > 1)
+        return std::nullopt;
     const bool possible = std::all_of(wanted.speeds.begin(), wanted.speeds.end(),
                                       [](double speed) { return speed > 0 && speed <= 1000; });
     if (!possible || wanted.speeds.empty() || !speeds.eof()) return std::nullopt;
@@ -282,16 +288,17 @@ int run(int argc, char** argv) {
          "",
          "the heaviest national hour before stormcellard: speed, latency, memory, bzip2's share.\n"
          "--as growing|open|whole|chunks, --speeds \"1 16\", --seconds of each,\n"
-         "--moments \"NAME ...\"",
+         "--moments \"NAME ...\", --quality P",
          {"--full"},
-         {"--work", "--as", "--speeds", "--seconds", "--sites", "--moments", "--soak-hours"}},
+         {"--work", "--as", "--speeds", "--seconds", "--sites", "--moments", "--quality",
+          "--soak-hours"}},
         std::span(argv, static_cast<std::size_t>(argc)));
     if (!request) return usage_status;
     const auto wanted = wanted_of(*request);
     if (!wanted) {
         fmt::print(stderr,
                    "bench_feed: usage: --as growing|open|whole|chunks, --speeds \"1 16\", "
-                   "--seconds N, --moments \"NAME ...\"\n");
+                   "--seconds N, --moments \"NAME ...\", --quality P\n");
         return 2;
     }
     Table table(request->json);

@@ -1,12 +1,15 @@
 #include "retrieve/derived/quality_moment.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -70,87 +73,144 @@ std::string largest_kinds(const LeftOutEcho& left_out) {
     return text;
 }
 
-// Removes gates of one moment after another.
+// Returns the least probability that is not below `least` when it is rounded.
+float least_kept(float least) {
+    // The bits of floats from 0 on have the order of their values.
+    auto low = std::bit_cast<std::uint32_t>(0.0F), high = std::bit_cast<std::uint32_t>(2.0F);
+    while (low < high) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        if (rounded(std::bit_cast<float>(middle)) < least)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return std::bit_cast<float>(low);
+}
+
+// The gates from `begin` to `end` - 1 of a moment are at gates of the judged moment.
+struct JudgedGates {
+    std::size_t begin = 0, end = 0;
+    std::vector<std::size_t> gates;  // by gate - begin
+    bool follow_each_other = true;
+};
+
+JudgedGates judged_gates(const SweepMoment& moment, const SweepMoment& judged) {
+    JudgedGates found;
+    for (std::int32_t gate = 0; gate < moment.gate_stride; ++gate) {
+        const auto there =
+            std::llround((moment.range_m(gate) - judged.first_gate_m) / judged.gate_spacing_m);
+        if (there < 0 || there >= judged.gate_stride) continue;
+        if (found.gates.empty()) found.begin = static_cast<std::size_t>(gate);
+        found.gates.push_back(static_cast<std::size_t>(there));
+        found.follow_each_other = found.follow_each_other &&
+                                  found.gates.back() == found.gates[0] + found.gates.size() - 1;
+    }
+    found.end = found.begin + found.gates.size();
+    return found;
+}
+
+// Removes the gates of one sweep whose probability is too low.
 class WeatherKeeper {
   public:
-    WeatherKeeper(level2::Volume& volume, double least)
-        : volume_(volume),
-          qualities_(weather_probabilities(volume)),
-          kinds_(echo_kinds(volume, qualities_, least)),
-          least_(static_cast<float>(least)) {}
-
-    // Removes gates of one sweep.
-    void keep_in(std::size_t number) {
-        level2::Sweep& sweep = volume_.sweeps[number];
-        const auto companion =
-            companion_sweep(volume_, number, sweep.mean_elevation_deg(), Moment::ref);
-        const SweepQuality* quality = companion ? quality_of(*companion) : nullptr;
-        if (quality == nullptr) return;
-        const level2::Sweep& from = volume_.sweeps[*companion];
-        std::vector<std::int32_t> radials(sweep.radials.size());
-        if (*companion == number)
-            std::iota(radials.begin(), radials.end(), 0);
-        else
-            radials = nearest_radials(azimuths_of(sweep), from);
-        for (SweepMoment& moment : sweep.moments)
-            keep_gates(moment, from.moments[quality->moment], *quality, radials);
+    // Sweeps take the probabilities of the moment `judged`. `radials` are the numbers of their
+    // radials there, or -1.
+    WeatherKeeper(const SweepMoment& judged, std::span<const float> probabilities, float kept,
+                  const std::vector<std::int32_t>& radials)
+        : judged_(judged), radials_(radials), is_low_(probabilities.size()) {
+        for (std::size_t at = 0; at < is_low_.size(); ++at)
+            is_low_[at] = probabilities[at] < kept ? 1 : 0;  // false for NaN
     }
-    [[nodiscard]] const LeftOutEcho& left_out() const { return left_out_; }
 
-  private:
-    [[nodiscard]] const SweepQuality* quality_of(std::size_t sweep) const {
-        const auto found = std::ranges::find(qualities_, sweep, &SweepQuality::sweep);
-        return found != qualities_.end() ? &*found : nullptr;
-    }
-    // Returns the kinds of the moment that was judged.
-    [[nodiscard]] const SweepKinds& kinds_of(const SweepQuality& quality) const {
-        return *std::ranges::find_if(kinds_, [&](const SweepKinds& of) {
-            return of.sweep == quality.sweep && of.moment == quality.moment;
+    void keep_in(SweepMoment& moment) const {
+        for_each_row(moment, [&](auto* codes, std::size_t, const std::uint8_t* is_low,
+                                 const JudgedGates& gates, std::size_t end) {
+            const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
+            if (gates.follow_each_other) {
+                const std::uint8_t* low = is_low + gates.gates.at(0);
+                keep_row(codes + gates.begin, end - gates.begin, first_valid,
+                         [low](std::size_t i) { return low[i]; });
+            } else {
+                keep_row(codes + gates.begin, end - gates.begin, first_valid,
+                         [&](std::size_t i) { return is_low[gates.gates[i]]; });
+            }
         });
     }
-    void keep_gates(SweepMoment& moment, const SweepMoment& judged, const SweepQuality& quality,
-                    const std::vector<std::int32_t>& radials) {
-        if (moment.gate_spacing_m <= 0) return;
-        std::vector<std::int64_t> gates(static_cast<std::size_t>(moment.gate_stride));
-        for (std::size_t gate = 0; gate < gates.size(); ++gate)
-            gates[gate] = std::llround(
-                (moment.range_m(static_cast<std::int32_t>(gate)) - judged.first_gate_m) /
-                judged.gate_spacing_m);
-        const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
-        const std::vector<EchoKind>& kinds = kinds_of(quality).kinds;
-        for (std::size_t radial = 0; radial < moment.gate_counts.size(); ++radial) {
-            if (radials[radial] < 0) continue;
-            const auto stride = static_cast<std::size_t>(judged.gate_stride);
-            const std::size_t row = static_cast<std::size_t>(radials[radial]) * stride;
-            for (std::size_t gate = 0; gate < moment.gate_counts[radial]; ++gate) {
-                const std::int64_t there = gates[gate];
-                if (there < 0 || there >= judged.gate_stride) continue;
-                const std::size_t at = radial * static_cast<std::size_t>(moment.gate_stride) + gate;
-                const bool is_echo =
-                    moment.code(radial, static_cast<std::int32_t>(gate)) >= first_valid;
-                if (!is_echo) continue;
-                const std::size_t judged_at = row + static_cast<std::size_t>(there);
-                const float probability = quality.probabilities[judged_at];
-                const bool is_removed = !std::isnan(probability) && rounded(probability) < least_;
-                if (moment.moment == Moment::ref) {
-                    ++left_out_.echo;
-                    if (is_removed) left_out_.count(kinds[judged_at]);
-                }
-                if (!is_removed) continue;
-                if (moment.word_size_bits == 8)
-                    moment.codes8[at] = 0;
-                else
-                    moment.codes16[at] = 0;
+    // Counts the gates of a reflectivity moment; `kinds` are those of the judged moment, or empty.
+    void count(SweepMoment& moment, std::span<const EchoKind> kinds, LeftOutEcho& left_out) const {
+        for_each_row(moment, [&](auto* codes, std::size_t row, const std::uint8_t* is_low,
+                                 const JudgedGates& gates, std::size_t end) {
+            const std::uint16_t first_valid = level2::facts_of(moment.moment).first_valid_code;
+            for (std::size_t gate = gates.begin; gate < end; ++gate) {
+                if (codes[gate] < first_valid) continue;
+                ++left_out.echo;
+                const std::size_t there = gates.gates[gate - gates.begin];
+                if (is_low[there] == 0) continue;
+                ++left_out.left_out;
+                if (!kinds.empty())
+                    ++left_out.of_kind[static_cast<std::size_t>(kinds[row + there])];
             }
+        });
+    }
+
+  private:
+    template <class Code, class IsLow>
+    static void keep_row(Code* codes, std::size_t count, std::uint16_t first_valid, IsLow is_low) {
+        // Compilers vectorize this loop, because it has no branch.
+        for (std::size_t i = 0; i < count; ++i) {
+            const Code code = codes[i], kept = is_low(i) != 0 ? Code{0} : code;
+            codes[i] = code >= first_valid ? kept : code;
+        }
+    }
+    template <class Visit>
+    void for_each_row(SweepMoment& moment, Visit visit) const {
+        if (moment.gate_spacing_m <= 0) return;
+        const JudgedGates gates = judged_gates(moment, judged_);
+        for (std::size_t radial = 0; radial < moment.gate_counts.size(); ++radial) {
+            if (radials_[radial] < 0) continue;
+            const std::size_t row = static_cast<std::size_t>(radials_[radial]) *
+                                    static_cast<std::size_t>(judged_.gate_stride);
+            const std::size_t own = radial * static_cast<std::size_t>(moment.gate_stride);
+            const std::size_t end = std::min<std::size_t>(gates.end, moment.gate_counts[radial]);
+            if (end <= gates.begin) continue;
+            if (moment.word_size_bits == 8)
+                visit(moment.codes8.data() + own, row, is_low_.data() + row, gates, end);
+            else
+                visit(moment.codes16.data() + own, row, is_low_.data() + row, gates, end);
         }
     }
 
-    level2::Volume& volume_;
-    std::vector<SweepQuality> qualities_;
-    std::vector<SweepKinds> kinds_;
-    float least_;
-    LeftOutEcho left_out_;
+    const SweepMoment& judged_;
+    const std::vector<std::int32_t>& radials_;
+    std::vector<std::uint8_t> is_low_;
 };
+
+// Returns the sweep whose probabilities a sweep takes: itself, if it has reflectivity.
+std::optional<std::size_t> judged_sweep(const level2::Volume& volume, std::size_t number) {
+    return companion_sweep(volume, number, volume.sweeps[number].mean_elevation_deg(), Moment::ref);
+}
+
+// Removes gates of a sweep by the probabilities of the sweep that judged_sweep() gave. `kinds` is
+// null or has the kinds of the same moment.
+LeftOutEcho keep_weather_in(level2::Volume& volume, std::size_t number, const SweepQuality& quality,
+                            const SweepKinds* kinds, double least) {
+    level2::Sweep& sweep = volume.sweeps[number];
+    const level2::Sweep& from = volume.sweeps[quality.sweep];
+    std::vector<std::int32_t> radials(sweep.radials.size());
+    if (quality.sweep == number)
+        std::iota(radials.begin(), radials.end(), 0);
+    else
+        radials = nearest_radials(azimuths_of(sweep), from);
+    const WeatherKeeper keeper(from.moments[quality.moment], quality.probabilities,
+                               least_kept(static_cast<float>(least)), radials);
+    std::span<const EchoKind> named;
+    if (kinds != nullptr) named = kinds->kinds;
+    LeftOutEcho left_out;
+    for (SweepMoment& moment : sweep.moments) {
+        if (moment.moment == Moment::ref) keeper.count(moment, named, left_out);
+        keeper.keep_in(moment);
+    }
+    return left_out;
+}
 
 }  // namespace
 
@@ -160,11 +220,6 @@ LeftOutEcho& LeftOutEcho::operator+=(const LeftOutEcho& other) {
     for (std::size_t i = 0; i < of_kind.size(); ++i)
         of_kind[i] += other.of_kind[i];
     return *this;
-}
-
-void LeftOutEcho::count(EchoKind kind) {
-    ++left_out;
-    ++of_kind[static_cast<std::size_t>(kind)];
 }
 
 double LeftOutEcho::percent(std::int64_t gates) const {
@@ -187,10 +242,20 @@ std::string weather_note(double least, const LeftOutEcho& left_out) {
 }
 
 LeftOutEcho keep_weather(level2::Volume& volume, double least) {
-    WeatherKeeper keeper(volume, least);
-    for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep)
-        keeper.keep_in(sweep);
-    return keeper.left_out();
+    const std::vector<SweepQuality> qualities = weather_probabilities(volume);
+    const std::vector<SweepKinds> kinds = echo_kinds(volume, qualities, least);
+    LeftOutEcho left_out;
+    for (std::size_t number = 0; number < volume.sweeps.size(); ++number) {
+        const auto judged = judged_sweep(volume, number);
+        if (!judged) continue;
+        const auto quality = std::ranges::find(qualities, *judged, &SweepQuality::sweep);
+        if (quality == qualities.end()) continue;
+        const auto named = std::ranges::find_if(kinds, [&](const SweepKinds& of) {
+            return of.sweep == quality->sweep && of.moment == quality->moment;
+        });
+        left_out += keep_weather_in(volume, number, *quality, &*named, least);
+    }
+    return left_out;
 }
 
 LeftOutEcho keep_weather(level2::Sweep& sweep, std::span<const level2::Sweep> others,
@@ -198,10 +263,14 @@ LeftOutEcho keep_weather(level2::Sweep& sweep, std::span<const level2::Sweep> ot
     level2::Volume volume;
     volume.sweeps.assign(others.begin(), others.end());
     volume.sweeps.push_back(std::move(sweep));
-    WeatherKeeper keeper(volume, least);
-    keeper.keep_in(others.size());
+    LeftOutEcho left_out;
+    if (const auto judged = judged_sweep(volume, others.size())) {
+        const auto qualities = weather_probabilities_of(volume, *judged);
+        if (!qualities.empty())
+            left_out = keep_weather_in(volume, others.size(), qualities.front(), nullptr, least);
+    }
     sweep = std::move(volume.sweeps.back());
-    return keeper.left_out();
+    return left_out;
 }
 
 }  // namespace stormcellar::retrieve

@@ -22,16 +22,15 @@ void add_quality_moment(level2::Volume& volume);
 // The reflectivity gates with echo, and those of them that are left out.
 struct LeftOutEcho {
     std::int64_t echo = 0, left_out = 0;
-    std::array<std::int64_t, echo_kind_count> of_kind{};  // of those left out
+    std::array<std::int64_t, echo_kind_count> of_kind{};  // of those left out; 0 without names
 
     LeftOutEcho& operator+=(const LeftOutEcho& other);
-    void count(EchoKind kind);  // of a gate that is left out
     // Returns the share of the echo.
     [[nodiscard]] double percent(std::int64_t gates) const;
 };
 
 // Returns the note for the provenance of grids: `least` and, if there is reflectivity, the share
-// left out and the two largest kinds of it with their shares (echo_kinds.h).
+// left out and, if they were named, the two largest kinds of it with their shares (echo_kinds.h).
 [[nodiscard]] std::string weather_note(double least, const LeftOutEcho& left_out);
 
 // Makes gates below threshold, in all measured moments, if their probability of weather is less
@@ -39,7 +38,8 @@ struct LeftOutEcho {
 // it. Gates whose probability is unknown stay.
 LeftOutEcho keep_weather(level2::Volume& volume, double least);
 
-// Does the same to one sweep of a volume, of which `others` have come.
+// Does the same to one sweep of a volume, of which `others` have come. Kinds get no names, because
+// naming them takes longer than all the rest, and a growing volume is judged many times.
 LeftOutEcho keep_weather(level2::Sweep& sweep, std::span<const level2::Sweep> others, double least);
 
 // Begins the note.
