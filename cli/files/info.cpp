@@ -350,7 +350,8 @@ Run set_up_info(CLI::App& info) {
         ->required();
     info.add_flag("--json", options->json, "Print one JSON document");
     info.add_flag("--echo", options->echo,
-                  "Also say what the echo is: weather, or which kind of other echo");
+                  "Also say what the echo is: weather, or which kind of other echo, and between "
+                  "which heights snow melts");
     CLI::Option* to = info.add_option("--to", options->to,
                                       "Also write the volume to this file as CfRadial netCDF");
     info.add_option("--volume", options->volume,

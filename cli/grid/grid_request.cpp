@@ -374,6 +374,7 @@ Result<GridRequest> parse_request(const GridOptions& options) {
     if (!site) return pass_on(site);
     request.site = std::move(*site);
     request.volume = options.volume;
+    request.assumed_zero_c_m = options.assumed_zero_c_m;
     if (auto done = parse_beside(options, request); !done) return pass_on(done);
     request.threads = options.threads > 0
                           ? options.threads

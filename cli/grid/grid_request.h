@@ -37,6 +37,8 @@ struct GridOptions {
     std::string storm_motion;    // empty: not typed
     double quality = 0;          // least probability of weather; 0: all echo
     bool takes_moments = false;  // --moment may name several moments, or "all"
+    // Height of 0 C that a product assumes: notes say if the melting layer is elsewhere.
+    std::optional<double> assumed_zero_c_m;
     std::string time, fields;
     SiteOptions site;
     int volume = 0;   // number from 1; 0: none was typed
@@ -70,6 +72,7 @@ struct GridRequest {
     level2::Moment moment = level2::Moment::ref;
     std::vector<level2::Moment> more_moments;  // besides `moment`, in the order of level2::Moment
     retrieve::DerivedOptions derived;          // for moments that are derived
+    std::optional<double> assumed_zero_c_m;    // as in GridOptions
     // Plans the rung of dealiasing for a volume; null: as in `derived`.
     std::function<Result<retrieve::Dealiasing>(const level2::Volume&)> plan_dealiasing;
     bool any_moment = false;            // --moment all: leave out moments that no volume has

@@ -8,6 +8,7 @@
 #include "base/steady_time.h"
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/level2/chunk_directory.h"
+#include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -31,6 +32,19 @@ Result<std::vector<std::string>> add_derived(const GridRequest& request, level2:
                 lacks_motion ? "; give the motion, as in --storm-motion 240/15" : "");
 }
 
+// Adds the derived moments, if there are any, and compares the melting layer with the height that
+// the request assumes.
+Result<std::vector<std::string>> complete(const GridRequest& request, level2::Volume& volume) {
+    const std::string note = request.assumed_zero_c_m
+                                 ? retrieve::zero_c_note(volume, *request.assumed_zero_c_m)
+                                 : std::string{};
+    Result<std::vector<std::string>> notes;
+    if (retrieve::must_derive(request.moments(), request.derived))
+        notes = add_derived(request, volume);
+    if (notes && !note.empty()) notes->push_back(note);
+    return notes;
+}
+
 // Returns what must be decoded for a request. The request must outlive the result.
 grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cuts) {
     grid::SourceWish wish{
@@ -39,10 +53,10 @@ grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cu
         .place = [&request](level2::Volume& volume) { return apply_site(request.site, volume); },
         .how_to_place = how_to_place,
         .threads = request.threads};
-    if (retrieve::must_derive(wish.moments, request.derived)) {
+    if (retrieve::must_derive(wish.moments, request.derived) || request.assumed_zero_c_m) {
         wish.choose_cuts = {};  // all cuts help to dealias and to judge one
-        wish.needs_all_moments = request.derived.quality > 0;
-        wish.derive = [&request](level2::Volume& volume) { return add_derived(request, volume); };
+        wish.needs_all_moments = request.derived.quality > 0 || request.assumed_zero_c_m;
+        wish.derive = [&request](level2::Volume& volume) { return complete(request, volume); };
     }
     return wish;
 }

@@ -17,6 +17,7 @@
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -223,6 +224,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     const auto rain = rain_choice(options);
     if (!rain) return pass_on(rain);
     const render::ProductFacts& product = render::facts_of(scene.product);
+    if (product.hail != nullptr) options.grid.assumed_zero_c_m = scene.freezing_levels.zero_c_m;
     FrameGrids grids;
     const bool is_special = product.is_of_sweep || product.is_over_time || product.hail != nullptr;
     if (options.scene.overlay == render::overlay_cells) {
@@ -251,6 +253,9 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
             grids.shear = std::move(made->shear);
         }
     }
+    const std::string zero_c =
+        retrieve::zero_c_in_notes(grids.shown->description().provenance.notes);
+    if (!zero_c.empty()) print_note(zero_c + "; give --freezing-levels");
     options.domain = grids.shown->name();
     return grids;
 }

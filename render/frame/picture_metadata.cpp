@@ -10,6 +10,7 @@
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/product.h"
 #include "stormcellar/retrieve/derived_moments.h"
+#include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::render {
 namespace {
@@ -95,6 +96,8 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
         add("Freezing levels",
             fmt::format("0 C at {:g} m, -20 C at {:g} m above sea level, assumed",
                         scene.freezing_levels.zero_c_m, scene.freezing_levels.minus_20_c_m));
+    if (facts_of(scene.product).hail != nullptr)
+        add("Melting layer", retrieve::zero_c_in_notes(provenance.notes));
     add("Hail error", facts.hail);
     add("Storm cells", facts.cells);
     add("Grid", grid_text(grid.spec));

@@ -77,6 +77,8 @@ TEST_F(InfoTest, SaysWhatTheEchoIs) {
     ASSERT_EQ(table.status, 0) << table.err;
     EXPECT_NE(table.out.find("  ground clutter                36."), std::string::npos)
         << table.out;
+    EXPECT_NE(table.out.find("no melting layer found: the volume has no dual polarization"),
+              std::string::npos);
     const ProgramResult ran = info({kabr, "--echo", "--json"});
     ASSERT_EQ(ran.status, 0) << ran.err;
     const auto echo = nlohmann::json::parse(ran.out).at("echo");
@@ -91,6 +93,20 @@ TEST_F(InfoTest, SaysWhatTheEchoIs) {
         info({testing::real_file("volumes/KBBX20060113_170337.gz"), "--echo", "--json"});
     const auto document = nlohmann::json::parse(four.out);
     EXPECT_EQ(document.at("echo").size(), document.at("volumes").size());
+}
+
+// The antenna of KLBB is 1029 m above sea level.
+TEST_F(InfoTest, SaysWhereSnowMelts) {
+    STORMCELLAR_NEED_DATA();
+    const std::string klbb = testing::real_file("volumes/KLBB20160601_150025_V06");
+    const ProgramResult table = info({klbb, "--echo"});
+    ASSERT_EQ(table.status, 0) << table.err;
+    EXPECT_NE(table.out.find("  melting layer from 3.3"), std::string::npos) << table.out;
+    const ProgramResult ran = info({klbb, "--echo", "--json"});
+    const auto layer = nlohmann::json::parse(ran.out).at("echo").at(0).at("melting_layer");
+    EXPECT_NEAR(layer.at("top_m_above_antenna").get<double>(), 2850, 200);
+    EXPECT_NEAR(layer.at("antenna_m").get<double>(), 1029, 1);
+    EXPECT_GT(layer.at("top_error_m").get<double>(), 50);
 }
 
 TEST_F(InfoTest, ADamagedVolumeIsDoneWithItsProblemsListed) {
