@@ -7,6 +7,7 @@
 #include "base/degree.h"
 #include "retrieve/quality/gate_field.h"
 #include "stormcellar/grid/beam_geometry.h"
+#include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -59,18 +60,16 @@ double middle_mean(std::vector<float> values) {
 
 }  // namespace
 
-std::vector<SectorSums> sums_by_sector(const level2::Sweep& sweep, std::size_t sectors) {
+std::vector<SectorSums> sums_by_sector(const level2::Sweep& sweep) {
     const GateField reflectivity = field_of(sweep, Moment::ref), zdr = field_of(sweep, Moment::zdr),
                     rho = field_of(sweep, Moment::rho);
     if (reflectivity.is_empty() || zdr.is_empty() || rho.is_empty()) return {};
     const auto places = gate_places(reflectivity, zdr, rho, sweep.mean_elevation_deg());
-    std::vector<SectorSums> sums(sectors);
+    std::vector<SectorSums> sums(MeltingLayer::sector_count);
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
         const auto azimuth = static_cast<double>(sweep.radials[radial].azimuth_deg);
         if (!std::isfinite(azimuth)) continue;
-        const double turns = azimuth / 360 - std::floor(azimuth / 360);
-        const auto sector =
-            std::min(static_cast<std::size_t>(turns * static_cast<double>(sectors)), sectors - 1);
+        SectorSums& sector = sums[MeltingLayer::sector_of(azimuth)];
         for (const GatePlace& place : places) {
             const float dbz = reflectivity.value(radial, place.gate);
             const float correlation = rho.value(radial, place.rho);
@@ -78,7 +77,7 @@ std::vector<SectorSums> sums_by_sector(const level2::Sweep& sweep, std::size_t s
             const bool counts = dbz >= least_dbz && dbz <= most_dbz &&
                                 correlation >= least_correlation && !std::isnan(differential);
             if (!counts) continue;
-            LevelSums& level = sums[sector][place.level];
+            LevelSums& level = sector[place.level];
             level.correlations.push_back(correlation);
             level.reflectivity_sum += static_cast<double>(dbz);
             level.zdr_sum += static_cast<double>(differential);

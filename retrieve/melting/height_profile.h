@@ -29,9 +29,8 @@ struct LevelSums {
 using SectorSums = std::array<LevelSums, profile_levels>;
 
 // Adds up the gates of 15 to 47 dBZ with a correlation of at least 0.7 from a range of 5 km on, for
-// each of the sectors of a circle. Empty if the sweep lacks REF, ZDR or RHO.
-[[nodiscard]] std::vector<SectorSums> sums_by_sector(const level2::Sweep& sweep,
-                                                     std::size_t sectors);
+// each sector of MeltingLayer. Empty if the sweep lacks REF, ZDR or RHO.
+[[nodiscard]] std::vector<SectorSums> sums_by_sector(const level2::Sweep& sweep);
 // Returns the sums of the whole circle.
 [[nodiscard]] SectorSums sums_of_circle(std::span<const SectorSums> sectors);
 

@@ -55,7 +55,7 @@ Found find_dips(const level2::Volume& volume) {
         const bool is_inside = elevation >= lowest_deg && elevation <= highest_deg;
         if (!is_dual || !is_inside) continue;
         ++found.sweeps;
-        sweeps.push_back(sums_by_sector(sweep, MeltingLayer::sector_count));
+        sweeps.push_back(sums_by_sector(sweep));
     }
     for (const auto& sectors : sweeps)
         for (std::size_t sector = 0; sector < sectors.size(); ++sector)
@@ -118,12 +118,16 @@ Error reason(const Found& found) {
 
 }  // namespace
 
-const LayerHeights& MeltingLayer::at(double azimuth_deg) const {
-    if (!std::isfinite(azimuth_deg)) return heights;
+std::size_t MeltingLayer::sector_of(double azimuth_deg) {
+    if (!std::isfinite(azimuth_deg)) return 0;
     const double turns = azimuth_deg / 360 - std::floor(azimuth_deg / 360);
-    const auto sector = std::min(
-        static_cast<std::size_t>(turns * static_cast<double>(sector_count)), sector_count - 1);
-    return sectors[sector] ? *sectors[sector] : heights;
+    const auto sector = static_cast<std::size_t>(turns * static_cast<double>(sector_count));
+    return std::min(sector, sector_count - 1);
+}
+
+const LayerHeights& MeltingLayer::at(double azimuth_deg) const {
+    const auto& sector = sectors[sector_of(azimuth_deg)];
+    return sector ? *sector : heights;
 }
 
 Result<MeltingLayer> melting_layer(const level2::Volume& volume) {

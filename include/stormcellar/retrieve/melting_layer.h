@@ -56,6 +56,8 @@ struct MeltingLayer {
     std::array<std::optional<LayerHeights>, sector_count> sectors;
     int profiles = 0;  // that agree
 
+    // Returns the sector of an azimuth in degrees; the first for NaN and infinity.
+    [[nodiscard]] static std::size_t sector_of(double azimuth_deg);
     // Returns the heights of the sector at an azimuth in degrees, or else of the whole volume.
     [[nodiscard]] const LayerHeights& at(double azimuth_deg) const;
 };
