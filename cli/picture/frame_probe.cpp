@@ -34,6 +34,7 @@ nlohmann::ordered_json json_of(const render::Probe& probe) {
               {"height_m", json_or_null(probe.height_m)},
               {"lowest_seen_m", json_or_null(probe.lowest_seen_m)},
               {"highest_seen_m", json_or_null(probe.highest_seen_m)}};
+    if (valued && !probe.class_name.empty()) json["class"] = probe.class_name;
     if (probe.distance_m) json["distance_m"] = *probe.distance_m;
     if (probe.gate) {
         json["gate"] = {

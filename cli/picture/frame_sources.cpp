@@ -17,6 +17,7 @@
 #include "stormcellar/cache/store.h"
 #include "stormcellar/catalog/catalog.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/retrieve/hydrometeors.h"
 #include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::cli {
@@ -253,6 +254,8 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
             grids.shear = std::move(made->shear);
         }
     }
+    for (const std::string& note : grids.shown->description().provenance.notes)
+        if (note.starts_with(retrieve::hydrometeor_words)) print_note(note);
     const std::string zero_c =
         retrieve::zero_c_in_notes(grids.shown->description().provenance.notes);
     if (!zero_c.empty()) print_note(zero_c + "; give --freezing-levels");

@@ -24,14 +24,17 @@ Status add_file(const fs::path& file, std::set<fs::path>& files) {
     return {};
 }
 
-// Returns the options for gridding all derived moments, or all moments that are not derived.
+// Returns the options for gridding all derived moments but classes, or all moments that are not
+// derived.
 pipeline::IngestOptions options_for_moments(bool are_derived, int threads) {
     pipeline::IngestOptions options;
     options.stations = std::make_shared<StationRule>(StationRule::any(StationRule::no_limit));
     options.moments.clear();
-    std::ranges::copy_if(
-        level2::all_moments, std::back_inserter(options.moments),
-        [&](level2::Moment moment) { return level2::facts_of(moment).is_derived == are_derived; });
+    std::ranges::copy_if(level2::all_moments, std::back_inserter(options.moments),
+                         [&](level2::Moment moment) {
+                             const level2::MomentFacts& facts = level2::facts_of(moment);
+                             return facts.is_derived == are_derived && !facts.is_categorical;
+                         });
     options.decode_threads = threads;
     options.grid_threads = threads;
     return options;

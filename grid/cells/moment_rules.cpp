@@ -42,6 +42,7 @@ constexpr auto moment_rules = std::to_array<MomentRules>({
     {Moment::pow, {1, -0.004F, 0.004F, true}, ValueUnit::ratio},
     {Moment::kdp, {2, -64, 0.00390625F, true}, ValueUnit::degree_per_km},
     {Moment::rate, {2, -0.015625F, 0.015625F, true}, ValueUnit::mm_per_h},
+    {Moment::hca, {1, -10, 10, true}, ValueUnit::ratio, false, "classes have no mean"},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_rules));
 

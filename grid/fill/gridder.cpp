@@ -101,6 +101,12 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
         return fail(ErrorCode::bad_argument, "the beam width must be 0 to {} degrees, not {}",
                     widest_beam_deg, options.beam_width_deg);
     }
+    if (level2::facts_of(options.moment).is_categorical) {
+        return fail(ErrorCode::bad_argument,
+                    "{} has classes, which have no mean: it is not gridded, but drawn sweep by "
+                    "sweep (ppi)",
+                    level2::moment_name(options.moment));
+    }
     if (options.method.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "only reflectivity can be averaged in Z, not {}",
                     level2::moment_name(options.moment));

@@ -298,6 +298,9 @@ std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key
     if (!moment) {
         table.complain(key, fmt::format("\"{}\" is not a moment: give one of {}", printable(name),
                                         level2::moment_names(" ", " ")));
+    } else if (level2::facts_of(*moment).is_categorical) {
+        table.complain(key, fmt::format("{} has classes, which have no mean: it is not gridded",
+                                        level2::moment_name(*moment)));
     }
     return moment;
 }

@@ -142,6 +142,12 @@ constexpr ColorClass hail_index_classes[] = {
     {558, 0xFF5A36}, {872, 0xD41F3A}, {1550, 0xD64BC8}, {2422, 0xF4C6F2},
 };
 
+// Each class begins between two numbers of the moment HCA.
+constexpr ColorClass hydrometeor_classes[] = {
+    {5, 0x8A8A8A},  {15, 0x4A4A4A}, {25, 0xF2B8D8}, {35, 0x8FE3FF}, {45, 0x2F7FF0},
+    {55, 0x35C95A}, {65, 0x0B7A2E}, {75, 0xD8B45A}, {85, 0xE04BE0}, {95, 0xE8202A},
+};
+
 constexpr ColorClass safe_reflectivity_classes[] = {
     {5, 0x003482},  {10, 0x114B94}, {15, 0x26619E}, {20, 0x3175A6}, {25, 0x60869C},
     {30, 0x758C92}, {35, 0x859189}, {40, 0x929780}, {45, 0xA29E74}, {50, 0xB5A763},
@@ -202,6 +208,7 @@ constexpr std::array stepped_tables{
     SteppedTable{"hail-probability", {}, "%", hail_probability_classes, 110},
     SteppedTable{"hail-index", {}, "J/m/s", hail_index_classes, 3500},
     SteppedTable{"rain-depth", {}, "mm", rain_total_classes, 200},
+    SteppedTable{"hydrometeors", Moment::hca, {}, hydrometeor_classes, 105},
     SteppedTable{"safe-reflectivity", Moment::ref, {}, safe_reflectivity_classes, 80},
     SteppedTable{"safe-velocity", Moment::vel, {}, safe_velocity_classes, 40, -40.0F},
     SteppedTable{"safe-zdr", Moment::zdr, {}, safe_zdr_classes, 8, -4.0F},

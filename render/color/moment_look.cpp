@@ -248,6 +248,10 @@ std::vector<ExtinctionPoint> kdp_extinction(float lowest) {
 std::vector<ExtinctionPoint> rain_extinction(float /*lowest*/) {
     return {{0, 0.001}, {2, 0.01}, {10, 0.06}, {50, 0.8}, {100, 2}};
 }
+// Classes are not drawn as volumes.
+std::vector<ExtinctionPoint> class_extinction(float /*lowest*/) {
+    return {{0, 0.02}};
+}
 std::vector<ExtinctionPoint> cfp_extinction(float /*lowest*/) {
     return {{0, 0.005}, {10, 0.04}, {30, 0.3}};
 }
@@ -270,6 +274,7 @@ constexpr auto moment_looks = std::to_array<MomentLook>({
     {Moment::pow, "Probability of weather", "smooth-quality", "smooth-quality", quality_extinction},
     {Moment::kdp, "Specific differential phase", "smooth-kdp", "smooth-kdp", kdp_extinction},
     {Moment::rate, "Rain rate", "smooth-rain", "smooth-rain", rain_extinction, true, true},
+    {Moment::hca, "Hydrometeor class", "hydrometeors", "hydrometeors", class_extinction, true},
 });
 static_assert(level2::has_a_row_for_each_moment(moment_looks));
 

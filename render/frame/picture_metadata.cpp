@@ -10,6 +10,7 @@
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/render/product.h"
 #include "stormcellar/retrieve/derived_moments.h"
+#include "stormcellar/retrieve/hydrometeors.h"
 #include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::render {
@@ -98,6 +99,9 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
                         scene.freezing_levels.zero_c_m, scene.freezing_levels.minus_20_c_m));
     if (facts_of(scene.product).hail != nullptr)
         add("Melting layer", retrieve::zero_c_in_notes(provenance.notes));
+    for (const std::string& note : provenance.notes)
+        if (note.starts_with(retrieve::hydrometeor_words))
+            add("Melting layer", note.substr(retrieve::hydrometeor_words.size()));
     add("Hail error", facts.hail);
     add("Storm cells", facts.cells);
     add("Grid", grid_text(grid.spec));

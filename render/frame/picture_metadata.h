@@ -9,7 +9,8 @@
 //   Frames              for a loop
 //   Domain, Stations, Product, Moment, Units
 //   Freezing levels     for hail
-//   Melting layer       for hail, if its top is far from the assumed height of 0 C
+//   Melting layer       for hydrometeor classes; for hail, if its top is far from the assumed
+//                       height of 0 C
 //   Hail error          if the freezing levels err; for a still
 //   Storm cells         if they are marked: how they were found and followed
 //   Grid                cells, spacing, levels

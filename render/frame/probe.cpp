@@ -12,6 +12,7 @@
 #include "render/products/section.h"
 #include "render/view/length_text.h"
 #include "stormcellar/grid/projection.h"
+#include "stormcellar/retrieve/hydrometeors.h"
 
 namespace stormcellar::render {
 namespace {
@@ -49,6 +50,8 @@ Probe probe_sweep(const grid::SweepLookup& sweep, const Scene& scene, grid::GeoP
     probe.status = value.status;
     probe.value = value.value;
     probe.unit = unit_shown(scene);
+    if (level2::facts_of(scene.moment).is_categorical)
+        probe.class_name = retrieve::hydrometeor_name(retrieve::hydrometeor_of_number(value.value));
     probe.gate = sweep.position(from_radar);
     if (probe.gate) probe.height_m = probe.gate->height_m;
     return probe;
@@ -174,6 +177,7 @@ std::string probe_text(const Probe& probe, const Units& units) {
         std::ranges::replace(state, '_', ' ');
         return state;
     }
+    if (!probe.class_name.empty()) return probe.class_name;
     const ShownUnit unit = shown_unit(probe.unit, units);
     // Give a converted value no more digits than the stored value has.
     const int digits = unit.symbol == probe.unit ? 6 : 4;

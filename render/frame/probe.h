@@ -24,9 +24,10 @@ namespace stormcellar::render {
 struct Probe {
     grid::GeoPoint place;  // the requested point
     grid::CellStatus status = grid::CellStatus::not_seen;
-    float value = 0;        // if the status is value
-    bool at_least = false;  // the true value may be larger
-    std::string unit;       // of the value as it is stored: "m/s", "km"
+    float value = 0;         // if the status is value
+    bool at_least = false;   // the true value may be larger
+    std::string unit;        // of the value as it is stored: "m/s", "km"
+    std::string class_name;  // if the value is the number of a class: "big drops"
     // Height of the value: of a maximum, a CAPPI, a point of a section, or the beam at a gate.
     std::optional<double> height_m;
     std::optional<double> distance_m;                     // along a section
@@ -43,7 +44,8 @@ struct Probe {
 [[nodiscard]] Result<Probe> probe_place(const grid::BrickView& view, const FrameFacts& facts,
                                         const Scene& scene, grid::GeoPoint place, int threads);
 
-// Returns a text such as "52.5 dBZ", "at least 12 km" or "no echo". The value is in `units`.
+// Returns a text such as "52.5 dBZ", "at least 12 km", "big drops" or "no echo". The value is in
+// `units`.
 [[nodiscard]] std::string probe_text(const Probe& probe, const Units& units);
 
 }  // namespace stormcellar::render

@@ -9,6 +9,7 @@
 #include "render/view/length_text.h"
 #include "render/volume/haze.h"
 #include "stormcellar/render/product.h"
+#include "stormcellar/retrieve/hydrometeors.h"
 
 namespace stormcellar::render {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 // for a table that covers all values.
 std::string clear_words(const Scene& scene, std::string_view between) {
     const ColorTable& table = colors_of(scene);
-    const bool takes_all =
-        table.bar_begin || (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
+    const bool takes_all = table.bar_begin || level2::facts_of(scene.moment).is_categorical ||
+                           (look_of(scene.moment).is_never_negative && !(table.lowest() > 0));
     if (takes_all) return "no echo";
     const ShownUnit unit = written_unit(scene);
     return fmt::format("no echo {} < {}", between, value_text(table.lowest(), unit, 4));
@@ -63,6 +64,16 @@ void add_flat_rows(const Scene& scene, Legend& legend) {
     legend.rows.push_back({"not seen", shades.land.not_seen, shades.hatch});
 }
 
+// Puts the names of the classes in place of the color bar.
+void add_class_rows(const Scene& scene, Legend& legend) {
+    legend.table = nullptr;
+    for (std::size_t i = 1; i < retrieve::hydrometeor_count; ++i) {
+        const auto kind = static_cast<retrieve::Hydrometeor>(i);
+        const auto color = color_of(colors_of(scene), retrieve::hydrometeor_number(kind));
+        if (color) legend.rows.push_back({std::string(retrieve::hydrometeor_name(kind)), *color});
+    }
+}
+
 }  // namespace
 
 Legend legend_of(const Scene& scene) {
@@ -73,6 +84,7 @@ Legend legend_of(const Scene& scene) {
     legend.bar_heading = unit.symbol;
     legend.shown_per_value = unit.per_stored;
     if (legend.bar_heading.empty()) legend.bar_heading = level2::moment_name(scene.moment);
+    if (level2::facts_of(scene.moment).is_categorical) add_class_rows(scene, legend);
     if (view_of(scene.product) == View::volume) {
         add_volume_rows(scene, legend);
     } else {

@@ -73,6 +73,14 @@ Status check_glyphs(const Scene& scene) {
                 level2::moment_name(scene.moment));
 }
 
+Status check_classes(const Scene& scene) {
+    const bool has_classes = level2::facts_of(scene.moment).is_categorical;
+    if (!has_classes || facts_of(scene.product).is_of_sweep) return {};
+    return fail(ErrorCode::bad_argument,
+                "{} has classes, which have no mean, so it is drawn as a ppi and not as {}",
+                level2::moment_name(scene.moment), product_name(scene.product));
+}
+
 Status check_look_at(const Camera& camera) {
     if (!camera.eye || !camera.look_at) return {};
     const double apart_m =
@@ -105,7 +113,7 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const Eye look_at = camera.look_at.value_or(Eye{});
-    const std::array<Status, 26> checks = {
+    const std::array<Status, 27> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -143,6 +151,7 @@ Status validate(const Scene& scene) {
         check_section(scene),
         check_glyphs(scene),
         check_colors(scene),
+        check_classes(scene),
     };
     for (const Status& check : checks) {
         if (!check) return check;

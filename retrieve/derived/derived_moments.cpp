@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "retrieve/derived/hydrometeor_moment.h"
 #include "retrieve/derived/quality_moment.h"
 #include "retrieve/derived/rain_moments.h"
 #include "retrieve/derived/read_folds.h"
@@ -165,6 +166,8 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
         });
     if (std::ranges::find(wanted, Moment::pow) != wanted.end()) add_quality_moment(volume);
     add_rain_moments(volume, wanted);
+    if (std::ranges::find(wanted, Moment::hca) != wanted.end())
+        derived.notes.push_back(add_hydrometeor_moment(volume));
     if (std::ranges::none_of(wanted, level2::is_dealiased)) return derived;
     if (options.dealiasing == Dealiasing::off)
         return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");

@@ -176,6 +176,13 @@ std::string_view hydrometeor_name(Hydrometeor kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+Hydrometeor hydrometeor_of_number(float number) {
+    for (std::size_t i = 1; i < hydrometeor_count; ++i)
+        if (const auto kind = static_cast<Hydrometeor>(i); hydrometeor_number(kind) == number)
+            return kind;
+    return Hydrometeor::none;
+}
+
 std::vector<SweepHydrometeors> hydrometeors(const level2::Volume& volume,
                                             const MeltingLayer& layer) {
     const std::vector<SweepKdp> all = specific_differential_phases(volume);

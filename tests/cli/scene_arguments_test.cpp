@@ -89,7 +89,7 @@ TEST(SceneOptions, HelpSaysTheRangesOfTheTable) {
     add_scene_options(app, options);
     EXPECT_THAT(app.help(),
                 ::testing::HasSubstr("REF, VEL, SW, ZDR, PHI, RHO, CFP, VELD, SRV, AZSH, "
-                                     "DIVG, POW, KDP or RATE"));
+                                     "DIVG, POW, KDP, RATE or HCA"));
 }
 
 TEST(SceneOptions, AProductOfOneMomentChoosesIt) {

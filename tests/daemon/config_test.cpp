@@ -106,6 +106,7 @@ TEST_F(ConfigFile, MomentsAreAListOrTheOldKeyWithOneName) {
     EXPECT_NE(refused("moments = []\n").find("must name at least one moment"), std::string::npos);
     EXPECT_NE(refused("moments = [\"REF\", \"REFL\"]\n").find("\"REFL\" is not a moment"),
               std::string::npos);
+    EXPECT_NE(refused("moments = [\"REF\", \"HCA\"]\n").find("HCA has classes"), std::string::npos);
     EXPECT_NE(refused("moment = \"REF\"\nmoments = [\"REF\"]\n").find("give one of the two"),
               std::string::npos);
 }
@@ -281,7 +282,7 @@ TEST_F(ConfigFile, ErrorsNameFileLineAndKey) {
     EXPECT_EQ(
         complaint(p + "[ingest]\nmoment = \"REFL\"\n"),
         "s.toml:6: [ingest] moment: \"REFL\" is not a moment: give one of REF VEL SW ZDR PHI RHO "
-        "CFP VELD SRV AZSH DIVG POW KDP RATE");
+        "CFP VELD SRV AZSH DIVG POW KDP RATE HCA");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [1, 2, 3]\n"),
               "s.toml:6: [ingest] extent_km: must be [width, height]");
     EXPECT_EQ(complaint(p + "[ingest]\nextent_km = [460, 460.5]\n"),

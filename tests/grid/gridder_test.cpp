@@ -248,6 +248,8 @@ TEST(Gridder, RefusesWhatMakesNoSense) {
     EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, std::nan(""), 1, {}, {}}),
               ErrorCode::bad_argument);
     EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, 0, 0, {}, {}}), ErrorCode::bad_argument);
+    EXPECT_EQ(code(volume, ktlx, {level2::Moment::hca, 0.95, 1, {}, {}}), ErrorCode::bad_argument)
+        << "classes have no mean";
 }
 
 TEST(Gridder, KnowsTheBeamOfEachKindOfRadar) {

@@ -141,6 +141,16 @@ TEST(MapField, OfRotationIsALayerAboveTheLowestRadar) {
     EXPECT_EQ(validate(scene).error().message, "rotation-aloft is made from AZSH, not from VEL");
 }
 
+TEST(Legend, OfClassesHasTheirNamesInPlaceOfTheBar) {
+    const Scene scene = scene_of(Product::ppi, Moment::hca);
+    EXPECT_TRUE(validate(scene));
+    EXPECT_EQ(legend_of(scene).table, nullptr);
+    EXPECT_THAT(legend_texts(scene),
+                ::testing::ElementsAre("biological", "ground clutter", "ice crystals", "dry snow",
+                                       "wet snow", "rain", "heavy rain", "big drops", "graupel",
+                                       "hail", "no echo", "range folded", "ambiguous", "not seen"));
+}
+
 TEST(ProductTitle, OfRotationSaysTheLayer) {
     Scene scene = scene_of(Product::rotation, Moment::azsh);
     EXPECT_EQ(product_title(scene), "Rotation, largest azimuthal shear 0 to 2 km above the radar");

@@ -85,6 +85,13 @@ TEST(SceneValidation, NamesTheFieldThatIsOutOfRange) {
              s.product = Product::echo_top;
              s.moment = level2::Moment::vel;
          }},
+        {"HCA has classes, which have no mean, so it is drawn as a ppi and not as volume",
+         [](Scene& s) { s.moment = level2::Moment::hca; }},
+        {"HCA has classes, which have no mean, so it is drawn as a ppi and not as composite",
+         [](Scene& s) {
+             s.product = Product::composite;
+             s.moment = level2::Moment::hca;
+         }},
         {"nws-velocity is in m/s, but the picture is in dBZ",
          [](Scene& s) { s.colors = find_color_table("nws-velocity").value(); }},
         {"nws-rho is without a unit, but the picture is in dBZ",

@@ -18,6 +18,7 @@ export const moments = {
     POW: { unit: '1', isDerived: true, measured: 'REF' },
     KDP: { unit: 'degree/km', isDerived: true, measured: 'PHI' },
     RATE: { unit: 'mm/h', isDerived: true, measured: 'REF' },
+    HCA: { unit: '1', isDerived: true, measured: 'REF' },
 } as const;
 export const momentTitles = {
     REF: 'Reflectivity',
@@ -34,6 +35,7 @@ export const momentTitles = {
     POW: 'Probability of weather',
     KDP: 'Specific differential phase',
     RATE: 'Rain rate',
+    HCA: 'Hydrometeor class',
 } as const;
 
 // Units by quantity, the usual one first.

@@ -34,7 +34,8 @@ enum class Moment : std::uint8_t {
     divg,
     pow,
     kdp,
-    rate
+    rate,
+    hca
 };
 
 // The circle on which the values of a moment wrap around.
@@ -71,6 +72,9 @@ struct MomentFacts {
     bool is_derived = false;
     // The measured moment whose gates a derived moment has.
     Moment measured = Moment::vel;
+    // True if a value is the number of a class. Such values have no mean, so they are shown sweep
+    // by sweep and are never gridded.
+    bool is_categorical = false;
 };
 
 inline constexpr auto moment_facts = std::to_array<MomentFacts>({
@@ -173,6 +177,19 @@ inline constexpr auto moment_facts = std::to_array<MomentFacts>({
      3,
      true,
      Moment::ref},
+    {Moment::hca,
+     "HCA",
+     "1",
+     {"hydrometeor class: 10 biological, 20 ground clutter, 30 ice crystals, 40 dry snow, 50 wet "
+      "snow, 60 rain, 70 heavy rain, 80 big drops, 90 graupel, 100 hail",
+      "", "radar_echo_classification"},
+     Circle::none,
+     false,
+     false,
+     3,
+     true,
+     Moment::ref,
+     true},
 });
 inline constexpr int moment_count = static_cast<int>(moment_facts.size());
 

@@ -1,7 +1,8 @@
 // stormcellar/retrieve/derived_moments.h -- the moments that come from others: VELD, the
 // dealiased velocity; SRV, the dealiased velocity relative to a storm; AZSH, the azimuthal shear,
 // and DIVG, the radial divergence, of the dealiased velocity; POW, the probability of weather
-// (quality.h); KDP, the specific differential phase (kdp.h); RATE, the rain rate (rain_rate.h).
+// (quality.h); KDP, the specific differential phase (kdp.h); RATE, the rain rate (rain_rate.h);
+// HCA, the hydrometeor class (hydrometeors.h).
 //
 // SRV is VELD minus the part of the storm's horizontal motion along the beam,
 //     (u sin a + v cos a) cos e
@@ -17,6 +18,9 @@
 // KDP has the gates and the flags of PHI, in steps of 0.005 degrees/km; a gate with a phase is
 // ambiguous where no KDP can be fitted, or its error exceeds 1 degree/km. RATE has those of REF, in
 // steps of 0.02 mm/h up to 1300; a sweep without PHI takes KDP from the nearest sweep that has it.
+//
+// HCA has the gates and the flags of REF in sweeps with dual polarization, and its values are
+// numbers of classes. A gate is ambiguous where no class fits. A note gives the melting layer.
 //
 // Units     As in storm_motion.h. The motion is rounded to whole degrees and to 0.1 m/s before its
 //           use, so that its text gives all of it.
@@ -91,7 +95,7 @@ struct DerivedVolume {
     std::vector<std::string> notes;
 };
 
-// Returns a copy of the volume with the wanted moments. Unless POW, KDP or RATE is wanted, or
+// Returns a copy of the volume with the wanted moments. Unless POW, KDP, RATE or HCA is wanted, or
 // options.quality is given, the copy has only velocities and the moments derived from them. Errors:
 // see above.
 [[nodiscard]] Result<DerivedVolume> derived_velocities(const level2::Volume& volume,

@@ -12,7 +12,7 @@
 //           out others: retrieve/hydrometeors/memberships.cpp has the tables.
 // Layer     That of melting_layer(). Without one, snow is assumed to melt over 500 m below the 0 C
 //           of FreezingLevels (hail.h), which is wrong in winter and in the tropics.
-// Numbers   Those of product 165 of the National Weather Service, divided by 10.
+// Numbers   hydrometeor_number() gives those of product 165 of the National Weather Service.
 // Accuracy  Of the gates of synthetic layers with noise, 99 % of rain, dry snow and wet snow get
 //           their class, 93 % of graupel above a core of hail, 88 % of hail and 83 % of heavy rain;
 //           the rest of a core 10 km wide are its edges (tests/retrieve/hydrometeors_test.cpp).
@@ -57,6 +57,14 @@ inline constexpr std::size_t hydrometeor_count = 11;
 // Returns for example "big drops".
 [[nodiscard]] std::string_view hydrometeor_name(Hydrometeor kind);
 
+// Returns the value of the moment HCA: 10 for biological, 20 for ground clutter, up to 100 for
+// hail.
+[[nodiscard]] constexpr float hydrometeor_number(Hydrometeor kind) {
+    return 10 * static_cast<float>(kind);
+}
+// Returns the class of such a number; none for any other number.
+[[nodiscard]] Hydrometeor hydrometeor_of_number(float number);
+
 // The classes at the gates of one reflectivity moment.
 struct SweepHydrometeors {
     std::size_t sweep = 0;             // index in the volume
@@ -70,6 +78,9 @@ struct Hydrometeors {
     // assumed, the reason.
     std::string layer;
 };
+
+// A note for provenance begins with these words; `layer` follows.
+inline constexpr std::string_view hydrometeor_words = "hydrometeor classes: melting layer ";
 
 // Classifies all sweeps of a volume that have dual polarization.
 [[nodiscard]] Hydrometeors hydrometeors(const level2::Volume& volume);

@@ -1,0 +1,17 @@
+// retrieve/derived/hydrometeor_moment.h -- the moment HCA, the class of hydrometeors.
+//
+// HCA has the gates and the flags of REF. A gate is ambiguous where no class fits.
+//
+// Threads   Pure functions.
+#pragma once
+
+#include <string>
+
+#include "stormcellar/level2/volume.h"
+
+namespace stormcellar::retrieve {
+
+// Adds HCA to the sweeps that have dual polarization. Returns a note that gives the melting layer.
+[[nodiscard]] std::string add_hydrometeor_moment(level2::Volume& volume);
+
+}  // namespace stormcellar::retrieve
