@@ -30,7 +30,7 @@ level2::Volume rainy_volume() {
     return volume;
 }
 
-constexpr std::array both = {Moment::kdp, Moment::rate};
+constexpr std::array kdp_and_rate = {Moment::kdp, Moment::rate};
 
 TEST(RainMoments, KdpHasTheFlagsOfPhaseAndTheFittedValues) {
     level2::Volume volume = rainy_volume();
@@ -41,7 +41,7 @@ TEST(RainMoments, KdpHasTheFlagsOfPhaseAndTheFittedValues) {
     for (std::size_t at = 10 * ramp_gates; at < 11 * ramp_gates; ++at)
         volume.sweeps[0].moments[1].codes8[at] = 60;  // a radial of low correlation
     const auto fitted = specific_differential_phases(volume);
-    ASSERT_TRUE(add_derived_moments(volume, both));
+    ASSERT_TRUE(add_derived_moments(volume, kdp_and_rate));
     const SweepMoment* kdp = volume.sweeps[0].find(Moment::kdp);
     ASSERT_NE(kdp, nullptr);
     EXPECT_EQ(kdp->status(0, 20), GateStatus::below_threshold);
@@ -59,7 +59,7 @@ TEST(RainMoments, RateComesFromKdpOrElseFromReflectivity) {
     echo[20] = 0;
     echo[21] = 1;
     echo[22] = 106;  // 20 dBZ
-    ASSERT_TRUE(add_derived_moments(volume, both));
+    ASSERT_TRUE(add_derived_moments(volume, kdp_and_rate));
     const SweepMoment* rate = volume.sweeps[0].find(Moment::rate);
     ASSERT_NE(rate, nullptr);
     EXPECT_EQ(rate->status(0, 20), GateStatus::below_threshold);
@@ -70,7 +70,7 @@ TEST(RainMoments, RateComesFromKdpOrElseFromReflectivity) {
     level2::Volume single = rainy_volume();
     single.sweeps[0].moments.erase(single.sweeps[0].moments.begin(),
                                    single.sweeps[0].moments.begin() + 2);
-    ASSERT_TRUE(add_derived_moments(single, both));
+    ASSERT_TRUE(add_derived_moments(single, kdp_and_rate));
     const SweepMoment* by_echo = single.sweeps[0].find(Moment::rate);
     ASSERT_NE(by_echo, nullptr);
     EXPECT_NEAR(by_echo->value_of(by_echo->code(0, 200)), rain_by_reflectivity_mm_per_h(45), 0.011);
