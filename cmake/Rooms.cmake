@@ -39,8 +39,9 @@ function(stormcellar_room name)
     foreach(directory IN LISTS ARG_SINGLY)
       set(singly ${ARG_SOURCES})
       list(FILTER singly INCLUDE REGEX "^${directory}/")
+      # A source that is compiled alone hides no name of another file, so warn of every hidden name again.
       set_source_files_properties(${singly} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-        COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+        COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>;-Wshadow")
     endforeach()
   endif()
   # Each room is a component of the installed package (cmake/Install.cmake).
