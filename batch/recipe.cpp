@@ -77,6 +77,19 @@ UtcTime time_of(const Json& json) {
     return *time;
 }
 
+// Reads how moments are derived. A plan of an older version does not say so, and has the default.
+retrieve::DerivedOptions derived_of(const Json& json) {
+    retrieve::DerivedOptions derived;
+    derived.quality = json.value("quality", derived.quality);
+    if (!(derived.quality >= 0 && derived.quality <= 1))
+        throw std::domain_error("its quality is not from 0 to 1");
+    if (!json.contains("dealias")) return derived;
+    const auto rung = retrieve::dealiasing_from_name(json.at("dealias").get<std::string>());
+    if (!rung) throw std::domain_error("its dealiasing is not known");
+    derived.dealiasing = *rung;
+    return derived;
+}
+
 Recipe read_recipe(const Json& json) {
     Recipe recipe;
     recipe.source = json.at("source");
@@ -90,6 +103,7 @@ Recipe read_recipe(const Json& json) {
         recipe.moments.push_back(*moment);
     }
     if (recipe.moments.empty()) throw std::domain_error("it has no moment");
+    recipe.derived = derived_of(json);
     if (json.contains("domain")) {
         recipe.domain = domain_of(json.at("domain"), recipe.moments);
         if (json.at("statistics")) {
@@ -119,6 +133,7 @@ std::chrono::milliseconds Recipe::margin() const {
 
 pipeline::ArchiveOptions Recipe::archive_options(int threads) const {
     return {.moment = moments.front(),
+            .derived = derived,
             .domain = domain,
             .spacing_m = spacing_m,
             .nx = nx,
@@ -139,7 +154,9 @@ Json json_of(const Recipe& recipe) {
               {"cache", recipe.cache.native()},
               {"from", format_utc(recipe.from)},
               {"to", format_utc(recipe.to)},
-              {"moments", moments}};
+              {"moments", moments},
+              {"dealias", retrieve::dealiasing_name(recipe.derived.dealiasing)},
+              {"quality", recipe.derived.quality}};
     if (recipe.domain) {
         json["domain"] = json_of_domain(*recipe.domain);
         json["statistics"] = recipe.statistics.has_value();

@@ -49,7 +49,8 @@ double Resources::seconds_of(std::size_t tasks) const {
 Resources resources_of_grids(const Plan& plan, int threads) {
     const Recipe& recipe = plan.recipe();
     Resources needed;
-    needed.memory_bytes = program_bytes + pipeline::most_array_bytes({recipe.moments, {}}) +
+    const auto decoded = pipeline::decoded_for(recipe.moments, recipe.derived.quality);
+    needed.memory_bytes = program_bytes + pipeline::most_array_bytes(decoded) +
                           pipeline::most_unpacked_bytes + cells_of(recipe) * bytes_a_cell;
     const bool is_bucket = is_address(recipe.source);
     needed.scratch_bytes =

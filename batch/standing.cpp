@@ -39,7 +39,10 @@ bool is_of(const cache::GridDescription& description, const Recipe& recipe, cons
     const grid::Provenance& provenance = description.provenance;
     if (provenance.software_version != software_version) return false;
     const auto* const day = std::get_if<StationDay>(&task.work);
-    if (day == nullptr) return description.spec == recipe.domain->spec;
+    if (day == nullptr) {
+        return description.spec == recipe.domain->spec &&
+               pipeline::is_derived_as(recipe.derived, description);
+    }
     if (provenance.source_files.size() != 1) return false;
     const auto volume = volume_named(provenance.source_files.front());
     return volume && volume->station == day->station && volume->day() == day->day &&

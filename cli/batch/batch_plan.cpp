@@ -98,6 +98,13 @@ Result<pipeline::Domain> domain_of(const PlanOptions& options, const Recipe& rec
     if (!request) return pass_on(request);
     pipeline::Domain domain;
     domain.name = options.mosaic;
+    const auto derived = std::ranges::find_if(
+        recipe.moments, [](level2::Moment moment) { return level2::facts_of(moment).is_derived; });
+    if (derived != recipe.moments.end()) {
+        return fail(ErrorCode::bad_argument,
+                    "{} is made for single stations, not for mosaics; leave out --mosaic",
+                    level2::moment_name(*derived));
+    }
     domain.moments = recipe.moments;
     domain.stations = request->stations;
     const auto sites = sites_of(domain.stations.empty() ? known : domain.stations);
@@ -277,6 +284,7 @@ int run_plan(const PlanOptions& options) {
     const auto moments = parse_request(options.archive.place);
     if (!moments) return report_error(moments.error());
     recipe.moments = moments->moments();
+    recipe.derived = moments->derived;
     if (Status good = check_statistics(options, recipe); !good) return report_error(good.error());
     const auto listing = take_stations(options, recipe);
     if (!listing) return report_error(listing.error());
@@ -326,6 +334,7 @@ Run set_up_batch_plan(CLI::App& command) {
         .add_option("--moment", options->archive.place.moment,
                     "The moments to grid, separated by commas, or all")
         ->capture_default_str();
+    add_derivation_options(command, options->archive.place);
     add_place_options(command, options->archive.place);
     command.add_option("--mosaic", options->mosaic,
                        "Also make frames of all stations together, under this name. Without it, "

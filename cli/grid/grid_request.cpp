@@ -472,6 +472,16 @@ void add_place_options(CLI::App& app, GridOptions& options) {
                    "Default: 0.5:16:0.5");
 }
 
+void add_derivation_options(CLI::App& app, GridOptions& options) {
+    app.add_option("--dealias", options.dealias,
+                   fmt::format("How to dealias the velocity (VELD instead of VEL): {}",
+                               retrieve::dealiasing_names()))
+        ->default_str("off");
+    app.add_option("--quality", options.quality,
+                   "Leave out echo whose probability of weather is less than this, from 0 to 1. "
+                   "0.5 leaves out most birds, insects and ground. Default: 0, which keeps all");
+}
+
 void add_spec_options(CLI::App& app, GridOptions& options) {
     add_place_options(app, options);
     add_site_options(app, options.site);
@@ -482,17 +492,11 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                                      "(all) become one file, decoded once, with a variable each"
                                    : ""))
         ->capture_default_str();
-    app.add_option("--dealias", options.dealias,
-                   fmt::format("How to dealias the velocity (VELD instead of VEL): {}",
-                               retrieve::dealiasing_names()))
-        ->default_str("off");
+    add_derivation_options(app, options);
     app.add_option("--storm-motion", options.storm_motion,
                    fmt::format("The motion to which the storm-relative velocity, SRV, refers: {}",
                                retrieve::motion_choices()))
         ->default_str(std::string(retrieve::automatic_motion));
-    app.add_option("--quality", options.quality,
-                   "Leave out echo whose probability of weather is less than this, from 0 to 1. "
-                   "0.5 leaves out most birds, insects and ground. Default: 0, which keeps all");
     app.add_option("--threads", options.threads,
                    options.threads == 0
                        ? std::string{"Number of threads. Default: all processors"}

@@ -53,6 +53,8 @@ void add_grid_options(CLI::App& app, GridOptions& options);
 void add_place_options(CLI::App& app, GridOptions& options);
 // Adds --volume, which chooses one volume of a file, or of a directory of chunks.
 void add_volume_option(CLI::App& app, GridOptions& options);
+// Adds --dealias and --quality.
+void add_derivation_options(CLI::App& app, GridOptions& options);
 // Adds the options for the grid, the moment and the number of threads.
 void add_spec_options(CLI::App& app, GridOptions& options);
 

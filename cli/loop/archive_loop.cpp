@@ -71,6 +71,7 @@ Result<pipeline::ArchivePlan> plan_of(const ArchiveCall& call,
     pipeline::ArchivePlan plan;
     plan.stations = call.request.stations;
     plan.fill.moment = call.moment;
+    plan.fill.derived = call.derived;
     plan.fill.threads = call.threads;
     if (plan.stations.size() == 1 && !call.request.place_given) {
         const auto shape = spec_about(call.request.place, 0, 0);

@@ -34,6 +34,7 @@ struct ArchiveCall {
     std::string domain;                     // of a mosaic; empty: named after its stations
     TimeRange range;                        // both ends are required
     level2::Moment moment = level2::Moment::ref;
+    retrieve::DerivedOptions derived;
     std::optional<std::chrono::seconds> interval;
     grid::TimeMethod time = grid::TimeMethod::advected;
     int threads = 1;

@@ -341,7 +341,10 @@ Result<render::Scene> check(LoopOptions& options) {
     if (auto fine = check_sources(options); !fine) return pass_on(fine);
     if (auto fine = check_sums(*scene); !fine) return pass_on(fine);
     if (auto fine = check_sweeps(options, *scene); !fine) return pass_on(fine);
-    if (auto fine = render::check_stored_derivation(options.scene, scene->product); !fine)
+    const bool makes_grids = options.archive.asked() || !options.files.empty();
+    if (auto fine = makes_grids ? render::check_stored_motion(options.scene, scene->product)
+                                : render::check_stored_derivation(options.scene, scene->product);
+        !fine)
         return pass_on(fine);
     return scene;
 }

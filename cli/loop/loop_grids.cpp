@@ -78,6 +78,7 @@ Result<ArchiveCall> call_of(const LoopOptions& options, const render::Scene& sce
     call.domain = options.domain;
     call.range = range;
     call.moment = scene.moment;
+    call.derived = render::derived_options_of(options.scene);
     const auto rhythm = rhythm_of(options);
     if (!rhythm) return pass_on(rhythm);
     call.interval = rhythm->interval;

@@ -9,6 +9,7 @@
 #include "pipeline/drop/chunk_path.h"
 #include "pipeline/drop/file_facts.h"
 #include "pipeline/ingest/ingest.h"
+#include "retrieve/derived/quality_note.h"
 #include "stormcellar/base/mutex.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
@@ -137,6 +138,7 @@ void take_in(Ingestor& ingestor, const ArchiveVolume& volume, level2::Moment mom
 IngestOptions ingest_options(const ArchiveOptions& options) {
     IngestOptions ingest;
     ingest.moments = {options.moment};
+    ingest.derived = options.derived;
     ingest.spacing_m = options.spacing_m;
     ingest.nx = options.nx;
     ingest.ny = options.ny;
@@ -148,7 +150,17 @@ IngestOptions ingest_options(const ArchiveOptions& options) {
     return ingest;
 }
 
+bool is_derived_as(const retrieve::DerivedOptions& options,
+                   const cache::GridDescription& description) {
+    const std::vector<std::string>& notes = description.provenance.notes;
+    if (!retrieve::is_of_quality(notes, options.quality)) return false;
+    const std::string rung = retrieve::dealiasing_in_notes(notes);
+    return rung.empty() || options.dealiasing == retrieve::Dealiasing::automatic ||
+           rung == retrieve::dealiasing_name(options.dealiasing);
+}
+
 bool is_of_grid(const ArchiveOptions& options, const cache::GridDescription& description) {
+    if (!is_derived_as(options.derived, description)) return false;
     const grid::GridSpec& spec = description.spec;
     if (options.domain) return grid::window_of(options.domain->spec, spec).has_value();
     const auto levels_m =

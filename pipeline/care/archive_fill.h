@@ -36,6 +36,9 @@ inline constexpr int most_workers = 8;
 
 struct ArchiveOptions {
     level2::Moment moment = level2::Moment::ref;
+    // Says how velocities are dealiased and which echo is left out. The motion of SRV is the
+    // default.
+    retrieve::DerivedOptions derived = {};
     std::optional<Domain> domain;  // none: each station alone, with the following grid
     double spacing_m = 1000;
     int nx = 460, ny = 460;
@@ -63,7 +66,13 @@ using FillProgress = std::function<void(std::size_t done)>;
 
 // Returns the options with which the chain makes the grids of such a cache.
 [[nodiscard]] IngestOptions ingest_options(const ArchiveOptions& options);
-// Returns true if the grid of a volume has the shape and place that these options give.
+// Returns true if the provenance of a grid tells of the quality and of the rung of dealiasing that
+// these options give. The notes of VELD do not name the rung, and those of a mosaic may lack it;
+// then any rung passes. So does every rung if the options leave the choice to each volume.
+[[nodiscard]] bool is_derived_as(const retrieve::DerivedOptions& options,
+                                 const cache::GridDescription& description);
+// Returns true if the grid of a volume has the shape and place that these options give, and is
+// derived as they say.
 [[nodiscard]] bool is_of_grid(const ArchiveOptions& options,
                               const cache::GridDescription& description);
 // Returns the reason why the chain made no grid from a file.

@@ -67,6 +67,8 @@ Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment
     std::string recipe = fmt::format("{}\n{}\n{}\n{}\n", software_version,
                                      (error ? catalog_directory : catalog).native(),
                                      level2::moment_name(moment), fmt::join(plan.stations, " "));
+    recipe += fmt::format("{} {}\n", retrieve::dealiasing_name(plan.fill.derived.dealiasing),
+                          plan.fill.derived.quality);
     if (plan.mosaic) {
         const auto rules = frame_options(*plan.mosaic, moment, 1);
         recipe += fmt::format("{}\n{}\n{} {} {}", plan.mosaic->name, recipe_of(plan.mosaic->spec),

@@ -25,10 +25,8 @@ std::vector<level2::Moment> moments_of(const IngestOptions& options) {
     return moments;
 }
 
-// Returns the moments to decode. Echo is judged by all moments.
 level2::Selection selection_of(const IngestOptions& options) {
-    if (options.derived.quality > 0) return {};
-    return {moments_of(options), {}};
+    return decoded_for(moments_of(options), options.derived.quality);
 }
 
 FollowedFile::Options follow_options(const IngestOptions& options) {

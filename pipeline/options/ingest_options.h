@@ -3,12 +3,14 @@
 // Threads   Plain data.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "pipeline/options/domain.h"
@@ -29,6 +31,14 @@ inline constexpr std::uint64_t most_shelf_bytes = std::uint64_t{4} << 30;
 // Limit of the unpacked size of a file, or of all chunks of a volume. It is three times the size of
 // a large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
+
+// Returns what to decode for grids of these moments, without echo that is less probably weather
+// than `quality`. Some moments, and the judgment of echo, take all measured moments.
+[[nodiscard]] inline level2::Selection decoded_for(std::vector<level2::Moment> moments,
+                                                   double quality) {
+    if (quality > 0 || std::ranges::any_of(moments, level2::uses_all_moments)) return {};
+    return {std::move(moments), {}};
+}
 
 // Returns the limit of a volume's arrays if these moments are decoded (empty: all). It is twice the
 // size of the arrays of any known volume; the largest moment has 14 MiB.

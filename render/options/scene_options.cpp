@@ -213,6 +213,11 @@ Status check_stored_derivation(const SceneOptions& options, Product product) {
                     "the service left of it",
                     spelled(quality_option(), options));
     }
+    return check_stored_motion(options, product);
+}
+
+Status check_stored_motion(const SceneOptions& options, Product product) {
+    if (facts_of(product).is_of_sweep) return {};
     if (options.storm_motion == retrieve::automatic_motion) return {};
     return fail(ErrorCode::bad_argument,
                 "{} is for frames of files and for a ppi; kept grids have the motion of their own "

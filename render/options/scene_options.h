@@ -84,6 +84,8 @@ struct LoopChoices {
 // any of them.
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Status check_stored_derivation(const SceneOptions& options, Product product);
+// Refuses such a storm motion alone.
+[[nodiscard]] Status check_stored_motion(const SceneOptions& options, Product product);
 
 // Refuses a product over time for a picture of one kept grid. Errors: bad_argument.
 [[nodiscard]] Status check_single_grid(Product product);

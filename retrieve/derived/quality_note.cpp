@@ -36,4 +36,11 @@ std::optional<QualityNote> quality_note_in(std::span<const std::string> notes) {
     return note;
 }
 
+bool is_of_quality(std::span<const std::string> notes, double least) {
+    const std::string text = quality_in_notes(notes);
+    if (least <= 0 || text.empty()) return least <= 0 && text.empty();
+    const std::string wanted = weather_note(least, {});  // without a share
+    return text.starts_with(wanted) && (text.size() == wanted.size() || text[wanted.size()] == ';');
+}
+
 }  // namespace stormcellar::retrieve

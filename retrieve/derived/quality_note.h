@@ -17,4 +17,8 @@ struct QualityNote {
 // Reads what quality_in_notes() returns. None if no note says that echo is left out.
 [[nodiscard]] std::optional<QualityNote> quality_note_in(std::span<const std::string> notes);
 
+// Returns true if the notes say that echo with a lesser probability of weather was left out, and no
+// other echo. For 0, returns true if no note says that echo is left out.
+[[nodiscard]] bool is_of_quality(std::span<const std::string> notes, double least);
+
 }  // namespace stormcellar::retrieve

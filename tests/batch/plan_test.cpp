@@ -83,6 +83,9 @@ TEST(Plan, ReadsBackTheRecipeThatWasWritten) {
         recipe.moments = {level2::Moment::ref, level2::Moment::vel};
         recipe.domain->moments = recipe.moments;
         recipe.domain->spec.center_latitude_deg = 35.1 + 1e-13;
+        recipe.derived.quality = own ? 0.1 + 0.2 : 0;
+        recipe.derived.dealiasing =
+            own ? retrieve::Dealiasing::region : retrieve::Dealiasing::automatic;
         if (own) {
             recipe.domain.reset();
             recipe.levels_m = {500, 1000.25};
@@ -96,6 +99,8 @@ TEST(Plan, ReadsBackTheRecipeThatWasWritten) {
         EXPECT_EQ(plan->recipe().levels_m, recipe.levels_m);
         EXPECT_EQ(plan->recipe().spacing_m, recipe.spacing_m);
         EXPECT_EQ(plan->recipe().moments, recipe.moments);
+        EXPECT_EQ(plan->recipe().derived.quality, recipe.derived.quality);
+        EXPECT_EQ(plan->recipe().derived.dealiasing, recipe.derived.dealiasing);
         EXPECT_EQ(plan->recipe().from, recipe.from);
         EXPECT_EQ(plan->facts().hash, hash_of(recipe));
     }

@@ -12,8 +12,10 @@
 #include "batch/check.h"
 #include "batch/leftovers.h"
 #include "batch/record.h"
+#include "pipeline/ingest/ingest.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
+#include "stormcellar/catalog/catalog.h"
 #include "tests/batch/failing_reads.h"
 #include "tests/batch/small_archive.h"
 #include "tests/fetch/mock_bucket.h"
@@ -68,6 +70,37 @@ TEST_F(BatchTasks, ASecondRunFindsWhatStandsAndASecondCacheHasTheSameBytes) {
     run_all(other);
     EXPECT_EQ(tree_of(directory_ / "one"), bytes);
     EXPECT_EQ(tree_of(directory_ / "two"), bytes);
+}
+
+// 2026-11-30: a batch knew neither the quality nor the dealiasing of the daemon.
+TEST_F(BatchTasks, GridsOfWeatherAndOfDealiasedVelocitiesAreThoseOfTheDaemon) {
+    Recipe recipe = this->recipe("weather");
+    recipe.domain.reset();
+    recipe.spacing_m = 4000;
+    recipe.nx = recipe.ny = 120;
+    recipe.levels_m = {1000, 2000, 4000};
+    recipe.moments = {level2::Moment::ref, level2::Moment::veld};
+    recipe.derived.quality = 0.5;
+    recipe.derived.dealiasing = retrieve::Dealiasing::region;
+    run_all(plan_of(recipe, "plan"));
+    auto catalog = catalog::CatalogWriter::open(directory_ / "catalog");
+    auto kept = cache::StoreWriter::open(real_file_system(), directory_ / "kept", true);
+    pipeline::IngestOptions ingest;
+    ingest.moments = recipe.moments;
+    ingest.derived = recipe.derived;
+    ingest.spacing_m = 4000;
+    ingest.nx = ingest.ny = 120;
+    ingest.levels_m = recipe.levels_m;
+    pipeline::Ingestor ingestor(*catalog, *kept, ingest);
+    // The first volume of the sequence begins before the recipe's first hour.
+    for (const std::string& name : {pipeline::sequence[1], pipeline::sequence[2]})
+        ASSERT_TRUE(ingestor.ingest(raw_ / "day" / name, false));
+    const auto daemons = tree_of(directory_ / "kept");
+    EXPECT_EQ(tree_of(directory_ / "weather"), daemons);
+    // A plan of all echo with the same cache makes its own grids.
+    recipe.derived.quality = 0;
+    run_all(plan_of(recipe, "plan of all echo"));
+    EXPECT_NE(tree_of(directory_ / "weather"), daemons);
 }
 
 // An engine may start a task twice. Here two processes run one task at the same time.

@@ -98,6 +98,18 @@ TEST_F(ArchiveLoop, TheCacheMayBeNamedByOneWord) {
     EXPECT_TRUE(fs::exists(directory_ / "drop" / "word" / "KBGM"));
 }
 
+TEST_F(ArchiveLoop, LeavesOutEchoThatIsNoWeather) {
+    const Words weather = {"--quality", "0.5", "--json"};
+    ASSERT_EQ(json_of(run_station({"--json"}))["grids_made"], 5);
+    const auto all = *read_file(out());
+    EXPECT_EQ(json_of(run_station(weather))["grids_made"], 5) << "in a cache of their own";
+    EXPECT_NE(*read_file(out()), all);
+    EXPECT_EQ(json_of(run_station(weather))["grids_made"], 0);
+    const auto refused = run_station({"--moment", "SRV", "--storm-motion", "240/15"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--storm-motion"));
+}
+
 TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {
     Words all =
         arguments({"--stations", "KBGM", "--from", "2005-08-22T02:00", "--to", "2005-08-22T04:00",

@@ -1,4 +1,5 @@
 // Runs `stormcellar batch` as a user does.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,6 +10,8 @@
 #include <signal.h>
 
 #include "stormcellar/base/file_system.h"
+#include "stormcellar/cache/grid_file.h"
+#include "stormcellar/cache/store.h"
 #include "tests/cli/run_stormcellar.h"
 #include "tests/pipeline/small_house.h"
 #include "tests/testing/file_bytes.h"
@@ -18,6 +21,7 @@ namespace stormcellar::cli {
 namespace {
 
 using pipeline::five_volumes;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::ProgramResult;
@@ -183,6 +187,19 @@ TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
     EXPECT_EQ(refused.status, 2);
     EXPECT_THAT(refused.err, HasSubstr("need --mosaic NAME"));
     EXPECT_EQ(plan("own").status, 2) << "the directory has a plan already";
+    const Words velocity = words("--moment VEL --dealias region --quality 0.5");
+    const ProgramResult merged = run(with(arguments, velocity, {"--mosaic", "all"}));
+    EXPECT_EQ(merged.status, 2);
+    EXPECT_THAT(merged.err, HasSubstr("VELD is made for single stations"));
+    Words weather = with(arguments, velocity);
+    *(std::ranges::find(weather, "-o") + 1) = place("weather");
+    ASSERT_EQ(run(weather).status, 0);
+    ASSERT_EQ(batch("submit", "weather", {"--engine", "local"}).status, 0);
+    const auto entries = *cache::StoreReader::open(directory_ / "weather/cache")
+                              ->list("KBGM", level2::Moment::veld, std::nullopt, std::nullopt);
+    ASSERT_EQ(entries.size(), 3U);
+    EXPECT_THAT(cache::GridFile::open(entries[0].path)->description().provenance.notes,
+                Contains(HasSubstr("probability of weather at least 0.5")));
 }
 
 }  // namespace

@@ -90,6 +90,47 @@ TEST_F(ArchiveFillTest, OwnGridsAreToTheByteThoseOfTheDaemon) {
     }
 }
 
+// Tests in wanted_echo_test.cpp and living_dealiasing_test.cpp compare the daemon's grids with
+// those of `stormcellar grid FILE`.
+TEST_F(ArchiveFillTest, GridsOfWeatherAndOfDealiasedVelocitiesAreThoseOfTheDaemon) {
+    cache::StoreWriter filled = store("filled"), kept = store("kept");
+    retrieve::DerivedOptions derived;
+    derived.quality = 0.5;
+    derived.dealiasing = retrieve::Dealiasing::region;
+    auto catalog = catalog::CatalogWriter::open(directory_ / "daemon");
+    IngestOptions ingest;
+    ingest.moments = {level2::Moment::ref, level2::Moment::veld, level2::Moment::azsh};
+    ingest.derived = derived;
+    ingest.nx = ingest.ny = 120;
+    ingest.spacing_m = 4000;
+    ingest.levels_m = options().levels_m;
+    Ingestor ingestor(*catalog, kept, ingest);
+    for (const std::string& name : sequence)
+        ASSERT_TRUE(ingestor.ingest(raw(name), false));
+    for (const level2::Moment moment : ingest.moments) {
+        SCOPED_TRACE(level2::moment_name(moment));
+        ArchiveOptions all = options(), weather = options();
+        all.moment = weather.moment = moment;
+        weather.derived = derived;
+        EXPECT_EQ(fill(filled, all).grids_made, 3U);
+        EXPECT_EQ(fill(filled, weather).grids_made, 3U) << "grids of all echo do not stand for it";
+        EXPECT_EQ(fill(filled, weather).grids_made, 0U);
+        const auto daemons = *kept.list("KBGM", moment, {}, {});
+        ASSERT_THAT(daemons, SizeIs(3));
+        for (const cache::StoreEntry& entry : daemons)
+            EXPECT_EQ(bytes_of(*filled.path_of("KBGM", moment, entry.time)), bytes_of(entry.path));
+        EXPECT_EQ(fill(filled, all).grids_made, 3U);
+        EXPECT_NE(bytes_of(*filled.path_of("KBGM", moment, daemons[0].time)),
+                  bytes_of(daemons[0].path));
+    }
+    // The notes of AZSH name the rung of dealiasing.
+    ArchiveOptions profile = options();
+    profile.moment = level2::Moment::azsh;
+    profile.derived.dealiasing = retrieve::Dealiasing::profile;
+    EXPECT_EQ(fill(filled, profile).grids_made, 3U);
+    EXPECT_EQ(fill(filled, profile).grids_made, 0U);
+}
+
 TEST_F(ArchiveFillTest, FramesHaveTheCellsAndPartsOfTheDaemons) {
     cache::StoreWriter filled = store("filled"), kept = store("kept");
     ArchiveOptions mosaic = options();

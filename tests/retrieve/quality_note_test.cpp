@@ -1,6 +1,7 @@
 // Tests that the numbers of notes about echo that is left out are read.
 #include "retrieve/derived/quality_note.h"
 
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,19 @@ TEST(QualityNote, IsNoneWithoutSuchANote) {
     EXPECT_FALSE(quality_note_in({}));
     EXPECT_FALSE(quality_note_in(std::vector<std::string>{"storm motion 240/15, as given"}));
     EXPECT_FALSE(quality_note_in(std::vector<std::string>{quality_words + "half"}));
+}
+
+TEST(QualityNote, TellsGridsOfOneThresholdFromThoseOfAnother) {
+    const std::vector file = {weather_note(0.1, {1000, 123})};
+    EXPECT_TRUE(is_of_quality(file, 0.1));
+    EXPECT_FALSE(is_of_quality(file, 0));
+    EXPECT_FALSE(is_of_quality(file, 0.12));
+    EXPECT_FALSE(is_of_quality(std::vector{weather_note(0.12, {})}, 0.1));
+    EXPECT_TRUE(is_of_quality(std::vector{weather_note(0.12, {})}, 0.12));
+    EXPECT_TRUE(is_of_quality({}, 0));
+    EXPECT_FALSE(is_of_quality({}, 0.1));
+    EXPECT_FALSE(is_of_quality({}, std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_TRUE(is_of_quality(std::vector{weather_note(1.0 / 3, {})}, 1.0 / 3));
 }
 
 }  // namespace
