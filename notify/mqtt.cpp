@@ -72,14 +72,15 @@ Status publish_by_mqtt(const MqttAddress& address, const std::string& text,
     static const int once = mosquitto_lib_init();
     (void)once;
     const auto named = [&](const Error& error) {
-        return fail(error.code, "mqtt://{}:{}/{}: {}", address.host, address.port, address.topic,
-                    error.message);
+        return fail(error.code, "{}://{}:{}/{}: {}", address.tls ? "mqtts" : "mqtt", address.host,
+                    address.port, address.topic, error.message);
     };
     MqttDelivery delivery{address, text};
     const MosquittoClient client(mosquitto_new(nullptr, true, &delivery));
     if (client == nullptr) return named({ErrorCode::busy, "libmosquitto cannot be started"});
     mosquitto_connect_callback_set(client.get(), &MqttDelivery::connected);
     mosquitto_publish_callback_set(client.get(), &MqttDelivery::published);
+    if (address.tls) mosquitto_int_option(client.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
     if (!options.user.empty())
         mosquitto_username_pw_set(client.get(), options.user.c_str(), options.password.c_str());
     // This does not wait for the connection, which may take minutes.

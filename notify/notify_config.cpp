@@ -5,6 +5,7 @@
 
 #include "base/printable.h"
 #include "base/toml_file.h"
+#include "grid/frame/named_place.h"
 #include "retrieve/hail/freezing_key.h"
 #include "service/config_keys.h"
 #include "stormcellar/cache/grid_name.h"
@@ -14,7 +15,13 @@ namespace {
 
 constexpr std::size_t most_rules = 64;  // each rule has a thread
 constexpr std::size_t longest_topic = 256;
-constexpr std::string_view mqtt_scheme = "mqtt://";
+
+struct MqttScheme {
+    std::string_view start;
+    bool tls = false;
+    int port = 0;
+};
+constexpr MqttScheme mqtt_schemes[] = {{"mqtt://", false, 1883}, {"mqtts://", true, 8883}};
 
 // Tables of other programs. The shipped file has all of them, and
 // tests/notify/notify_config_test.cpp loads it, so the test fails if a name is missing here.
@@ -26,15 +33,29 @@ bool is_name(std::string_view name) {
     return cache::is_domain_name(name) && !cache::is_part(name);
 }
 
-void read_place(TomlTable& table, NotifyRule& rule) {
-    const auto place = table.numbers("place").value_or(std::vector<double>{});
-    if (place.size() == 2 && std::abs(place[0]) <= 90 && std::abs(place[1]) <= 180) {
-        rule.latitude_deg = place[0];
-        rule.longitude_deg = place[1];
+// Reads a latitude and a longitude, or a name.
+void read_point(TomlTable& table, NotifyRule& rule) {
+    std::vector<double> place;
+    if (table.is_text("place")) {
+        const auto named = grid::place_named(table.text("place").value_or(""));
+        if (!named) return table.complain("place", named.error().message);
+        place = {named->latitude_deg, named->longitude_deg};
     } else {
-        table.complain("place",
-                       "must be a latitude and a longitude in degrees, as in [35.4, -97.6]");
+        place = table.numbers("place").value_or(place);
     }
+    const bool is_point =
+        place.size() == 2 && std::abs(place[0]) <= 90 && std::abs(place[1]) <= 180;
+    if (!is_point) {
+        return table.complain("place",
+                              "must be a latitude and a longitude in degrees, as in [35.4, "
+                              "-97.6], a town as in \"Moore, OK\", or a radar as in \"KTLX\"");
+    }
+    rule.latitude_deg = place[0];
+    rule.longitude_deg = place[1];
+}
+
+void read_place(TomlTable& table, NotifyRule& rule) {
+    read_point(table, rule);
     const auto radius = table.number("radius_km", {0.1, 1000});
     if (radius) rule.radius_km = *radius;
     if (!table.has("radius_km")) table.complain("radius_km", "must be given");
@@ -53,9 +74,9 @@ void read_thresholds(TomlTable& table, Thresholds& thresholds) {
                        "cell would be sent");
 }
 
-// Splits "HOST:PORT" (without a port: 1883; an IPv6 host has brackets).
-std::optional<MqttAddress> host_and_port(std::string_view text) {
-    MqttAddress address;
+// Splits "HOST:PORT" (an IPv6 host has brackets). Without a port, takes the port of the scheme.
+std::optional<MqttAddress> host_and_port(std::string_view text, const MqttScheme& scheme) {
+    MqttAddress address{.host = {}, .port = scheme.port, .topic = {}, .tls = scheme.tls};
     const std::size_t bracket = text.find(']');
     const std::size_t colon = text.find(':', bracket == std::string_view::npos ? 0 : bracket);
     if (colon != std::string_view::npos) {
@@ -72,12 +93,14 @@ std::optional<MqttAddress> host_and_port(std::string_view text) {
 }
 
 std::optional<MqttAddress> parse_mqtt(std::string_view text) {
-    if (!text.starts_with(mqtt_scheme)) return std::nullopt;
-    text.remove_prefix(mqtt_scheme.size());
+    const auto* const scheme = std::ranges::find_if(
+        mqtt_schemes, [&](const MqttScheme& one) { return text.starts_with(one.start); });
+    if (scheme == std::end(mqtt_schemes)) return std::nullopt;
+    text.remove_prefix(scheme->start.size());
     const std::size_t slash = text.find('/');
     if (slash == std::string_view::npos || !is_web_address(fmt::format("http://{}", text)))
         return std::nullopt;
-    auto address = host_and_port(text.substr(0, slash));
+    auto address = host_and_port(text.substr(0, slash), *scheme);
     if (!address) return std::nullopt;
     address->topic = text.substr(slash + 1);
     if (address->topic.empty() || address->topic.size() > longest_topic) return std::nullopt;

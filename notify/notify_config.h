@@ -15,11 +15,12 @@
 
 namespace stormcellar::notify {
 
-// A topic of an MQTT broker, "mqtt://HOST:PORT/TOPIC".
+// A topic of an MQTT broker, "mqtt://HOST:PORT/TOPIC", or with TLS "mqtts://HOST:PORT/TOPIC".
 struct MqttAddress {
     std::string host;
-    int port = 1883;
+    int port = 1883;  // with TLS, the default is 8883
     std::string topic;
+    bool tls = false;
     bool operator==(const MqttAddress&) const = default;
 };
 

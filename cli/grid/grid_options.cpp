@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/name_list.h"
-#include "render/options/named_place.h"
+#include "grid/frame/named_place.h"
 #include "stormcellar/export/grid_format.h"
 #include "stormcellar/retrieve/derived_moments.h"
 
@@ -66,7 +66,7 @@ void add_place_options(CLI::App& app, GridOptions& options) {
     CLI::Option* center = app.add_option(
         "--center", options.center,
         fmt::format("Center of the grid: {}. Default: the site, or the middle of the sites",
-                    render::place_for_help));
+                    grid::place_for_help));
     app.add_option_function<std::string>(
            "--at",
            [&options](const std::string& place) {

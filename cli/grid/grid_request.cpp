@@ -9,8 +9,8 @@
 #include "base/number_list.h"
 #include "cli/shared/commands.h"
 #include "grid/cells/level_range.h"
+#include "grid/frame/named_place.h"
 #include "render/options/moment_name.h"
-#include "render/options/named_place.h"
 
 namespace stormcellar::cli {
 namespace {
@@ -132,7 +132,7 @@ Status parse_map(const GridOptions& options, GridRequest& request) {
     if (!projection) return pass_on(projection);
     request.projection = *projection;
     if (!options.center.empty()) {
-        const auto center = render::parse_place(options.center_option, options.center);
+        const auto center = grid::parse_place(options.center_option, options.center);
         if (!center) return pass_on(center);
         request.center_deg = {center->latitude_deg, center->longitude_deg};
     }

@@ -19,8 +19,8 @@
 #include "cli/picture/picture_plan.h"
 #include "cli/picture/still_output.h"
 #include "cli/shared/commands.h"
+#include "grid/frame/named_place.h"
 #include "render/options/fitted_view.h"
-#include "render/options/named_place.h"
 #include "render/options/still_frame.h"
 #include "render/products/rotation.h"
 #include "stormcellar/render/still.h"
@@ -164,9 +164,9 @@ Run set_up_frame(CLI::App& frame) {
     frame.add_option(
         "--probe", options->probe,
         "Print the value at this pixel of the picture: X,Y, counted from 0,0 at the top left");
-    frame.add_option("--probe-at", options->probe_at,
-                     fmt::format("Print the value at this place (maps and volumes): {}",
-                                 render::place_for_help));
+    frame.add_option(
+        "--probe-at", options->probe_at,
+        fmt::format("Print the value at this place (maps and volumes): {}", grid::place_for_help));
     frame.add_flag("--json", options->json, "Print what was done as one JSON document");
     add_scene_options(frame, options->scene);
     add_picture_plan_options(frame, options->plan);

@@ -7,7 +7,7 @@
 
 #include "base/floating_point.h"
 #include "cli/shared/commands.h"
-#include "render/options/named_place.h"
+#include "grid/frame/named_place.h"
 #include "render/products/section.h"
 #include "render/view/length_text.h"
 #include "stormcellar/render/product.h"
@@ -103,7 +103,7 @@ Result<MaybeProbe> probe_grid(const FrameOptions& options, const render::Scene& 
                                             static_cast<int>(y), threads));
     }
     if (!options.probe_at.empty()) {
-        const auto place = render::parse_place("--probe-at", options.probe_at);
+        const auto place = grid::parse_place("--probe-at", options.probe_at);
         if (!place) return pass_on(place);
         return as_maybe(render::probe_place(file.view(), facts, scene, *place, threads));
     }

@@ -6,10 +6,10 @@
 #include "base/local_time.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
+#include "grid/frame/named_place.h"
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
 #include "render/options/moment_name.h"
-#include "render/options/named_place.h"
 #include "render/options/scene_options.h"
 #include "stormcellar/render/product.h"
 
@@ -20,7 +20,7 @@ void set_section(PictureSettings to, std::span<const double> ends) {
 }
 
 Result<std::vector<double>> read_section(const std::string& option, const std::string& text) {
-    const auto ends = parse_two_places(option, text);
+    const auto ends = grid::parse_two_places(option, text);
     if (!ends) return pass_on(ends);
     return std::vector{(*ends)[0].latitude_deg, (*ends)[0].longitude_deg, (*ends)[1].latitude_deg,
                        (*ends)[1].longitude_deg};

@@ -23,13 +23,35 @@ inline constexpr const char* mosquitto_program = "/usr/sbin/mosquitto";
     if (!std::filesystem::exists(testing::mosquitto_program)) \
     GTEST_SKIP() << "the broker mosquitto is not installed (package mosquitto)"
 
+// A certificate for 127.0.0.1, which signs itself, and its key.
+class BrokerCertificate {
+  public:
+    BrokerCertificate() {
+        const auto made = run_program(
+            "/usr/bin/openssl",
+            {"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+             "-days", "2", "-subj", "/CN=broker", "-addext", "subjectAltName=IP:127.0.0.1",
+             "-keyout", key(), "-out", file()});
+        EXPECT_EQ(made.status, 0) << made.err;
+    }
+    [[nodiscard]] std::string file() const { return directory_ / "certificate.pem"; }
+    [[nodiscard]] std::string key() const { return directory_ / "key.pem"; }
+
+  private:
+    TemporaryDirectory directory_;
+};
+
 class Broker {
   public:
-    // With a password, the broker admits only the user "storm".
-    explicit Broker(const std::string& password = {}) {
+    // With a password, the broker admits only the user "storm". With a certificate, it speaks TLS.
+    explicit Broker(const std::string& password = {},
+                    const BrokerCertificate* certificate = nullptr) {
         std::ofstream config(directory_ / "mosquitto.conf");
         config << "listener " << port_ << " 127.0.0.1\nuser root\npersistence false\n";
         config << "allow_anonymous " << (password.empty() ? "true\n" : "false\n");
+        if (certificate != nullptr)
+            config << "certfile " << certificate->file() << "\nkeyfile " << certificate->key()
+                   << "\n";
         if (!password.empty()) {
             const std::string file = directory_ / "users";
             config << "password_file " << file << "\n";

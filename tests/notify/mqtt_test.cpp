@@ -1,6 +1,7 @@
 // Publishes to a real broker, and to peers that are no brokers.
 #include "notify/mqtt.h"
 
+#include <cstdlib>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -43,6 +44,17 @@ class MqttPeer {
     std::thread thread_;
 };
 
+// Makes OpenSSL trust the certificates of a file alone.
+class TrustedCertificates {
+  public:
+    explicit TrustedCertificates(const std::string& file) {
+        ::setenv("SSL_CERT_FILE", file.c_str(), 1);
+    }
+    TrustedCertificates(const TrustedCertificates&) = delete;
+    TrustedCertificates& operator=(const TrustedCertificates&) = delete;
+    ~TrustedCertificates() { ::unsetenv("SSL_CERT_FILE"); }
+};
+
 TEST(Mqtt, ABrokerFromDebianReceivesTheMessage) {
     STORMCELLAR_NEED_BROKER();
     const testing::Broker broker;
@@ -68,6 +80,28 @@ TEST(Mqtt, ABrokerThatChecksPasswords) {
         EXPECT_THAT(refused.error().message, HasSubstr("uthori"));
         EXPECT_THAT(refused.error().message, Not(HasSubstr("cirrus")));
     }
+}
+
+TEST(Mqtt, WithTlsTheBrokerMustHaveACertificateThatTheSystemTrusts) {
+    STORMCELLAR_NEED_BROKER();
+    const testing::BrokerCertificate certificate;
+    const testing::Broker broker({}, &certificate);
+    const MqttAddress address{"127.0.0.1", broker.port(), "storms", true};
+    const Status unknown = publish_by_mqtt(address, "{}", {});
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().code, ErrorCode::busy);
+    EXPECT_THAT(unknown.error().message, HasSubstr("mqtts://127.0.0.1:"));
+    {
+        const TrustedCertificates trusted(certificate.file());
+        const Status done = publish_by_mqtt(address, "{}", {});
+        EXPECT_TRUE(done) << done.error().message;
+        EXPECT_FALSE(publish_by_mqtt({"localhost", broker.port(), "storms", true}, "{}", {}))
+            << "the certificate is of another host";
+        EXPECT_FALSE(publish_by_mqtt({"127.0.0.1", broker.port(), "storms", false}, "{}",
+                                     {.longest = std::chrono::seconds{1}}));
+    }
+    const testing::Broker plain;
+    EXPECT_FALSE(publish_by_mqtt({"127.0.0.1", plain.port(), "storms", true}, "{}", {}));
 }
 
 TEST(Mqtt, NobodyListens) {

@@ -8,6 +8,7 @@
 namespace stormcellar::notify {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class NotifyConfigFile : public testing::ConfigFile<load_notify_config> {
@@ -40,7 +41,7 @@ TEST_F(NotifyConfigFile, EveryKeyIsTaken) {
         "[[notify.rule]]\nname = \"moore\"\narea = \"KTLX\"\nplace = [35.34, -97.49]\n"
         "radius_km = 30\nmax_dbz = 55\nvil_kg_per_m2 = 20\nmesh_mm = 25\ntop_km = 9.5\n"
         "every_minutes = 20\nurl = \"https://hooks.example.org/a/b\"\n"
-        "[[notify.rule]]\nname = \"norman\"\narea = \"central\"\nplace = [35, -97]\nradius_km = 5\n"
+        "[[notify.rule]]\nname = \"norman\"\narea = \"central\"\nplace = \"KTLX\"\nradius_km = 5\n"
         "mesh_mm = 25\nmqtt = \"mqtt://[::1]:1884/storms/norman\"\npassword_file = \"secret\"\n"
         "[log]\nlevel = \"debug\"\n");
     ASSERT_TRUE(config) << config.error().message;
@@ -61,6 +62,8 @@ TEST_F(NotifyConfigFile, EveryKeyIsTaken) {
     EXPECT_EQ(config->rules[1].every, std::chrono::minutes{15});
     EXPECT_TRUE(config->rules[1].mqtt == (MqttAddress{"::1", 1884, "storms/norman"}));
     EXPECT_EQ(config->rules[1].password_file, directory_ / "secret");
+    EXPECT_NEAR(config->rules[1].latitude_deg, 35.333, 0.001) << "the radar's";
+    EXPECT_NEAR(config->rules[1].longitude_deg, -97.278, 0.001);
 }
 
 TEST_F(NotifyConfigFile, WhatMakesNoSenseIsNamedWithItsLine) {
@@ -69,6 +72,12 @@ TEST_F(NotifyConfigFile, WhatMakesNoSenseIsNamedWithItsLine) {
     EXPECT_THAT(complaint_with("area", "\"us.KTLX\""), HasSubstr("area: must be a station"));
     for (const char* place : {"", "[35]", "[91, 0]", "[35, -181]", "[nan, 0]", "\"Moore\""})
         EXPECT_THAT(complaint_with("place", place), HasSubstr("place")) << place;
+    EXPECT_THAT(complaint_with("place", "\"Moore, OK\""), HasSubstr("it was taken"));
+    EXPECT_THAT(complaint_with("place", "\"Moore\""),
+                AllOf(HasSubstr("place: 'Moore' may be"), HasSubstr("Moore, OK")));
+    EXPECT_THAT(complaint_with("place", "\"Norrman, OK\""),
+                HasSubstr("did you mean 'Norman, OK'?"));
+    EXPECT_THAT(complaint_with("place", "\"91,0\""), HasSubstr("must be a latitude"));
     for (const char* radius : {"", "0", "1001", "nan"})
         EXPECT_THAT(complaint_with("radius_km", radius), HasSubstr("radius_km")) << radius;
     EXPECT_THAT(complaint_with("max_dbz", ""), HasSubstr("max_dbz: or vil_kg_per_m2"));
@@ -89,10 +98,22 @@ TEST_F(NotifyConfigFile, AddressesOfBrokers) {
             mqtt + "\"\n");
     };
     EXPECT_EQ(with("mqtt://broker/a"), "it was taken");
+    const auto address_of = [&](const std::string& mqtt) {
+        return load(
+                   "[[notify.rule]]\nname = \"a\"\narea = \"KTLX\"\nplace = [35, -97]\n"
+                   "radius_km = 3\nmax_dbz = 5\nmqtt = \"" +
+                   mqtt + "\"\n")
+            ->rules.at(0)
+            .mqtt;
+    };
+    EXPECT_EQ(address_of("mqtt://broker/a"), (MqttAddress{"broker", 1883, "a", false}));
+    EXPECT_EQ(address_of("mqtts://broker/a/b"), (MqttAddress{"broker", 8883, "a/b", true}));
+    EXPECT_EQ(address_of("mqtts://[::1]:99/a"), (MqttAddress{"::1", 99, "a", true}));
     for (const char* mqtt :
          {"", "mqtt://", "mqtt://broker", "mqtt://broker/", "mqtt:///a", "mqtt://broker:0/a",
           "mqtt://broker:65536/a", "mqtt://broker:1x/a", "mqtt://broker/a/#", "mqtt://broker/+/a",
-          "mqtt://u:p@broker/a", "mqtts://broker/a", "http://broker/a", "mqtt://[]/a"})
+          "mqtt://u:p@broker/a", "mqttss://broker/a", "mqtts://broker", "http://broker/a",
+          "mqtt://[]/a"})
         EXPECT_THAT(with(mqtt), HasSubstr("mqtt: must be an address")) << mqtt;
     EXPECT_THAT(with("mqtt://broker/" + std::string(257, 'a')), HasSubstr("must be an address"));
 }

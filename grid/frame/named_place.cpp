@@ -1,4 +1,4 @@
-#include "render/options/named_place.h"
+#include "grid/frame/named_place.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +12,7 @@
 #include "base/printable.h"
 #include "stormcellar/base/station_table.h"
 
-namespace stormcellar::render {
+namespace stormcellar::grid {
 namespace {
 
 constexpr int large_town_thousands = 100;
@@ -20,7 +20,7 @@ constexpr std::size_t most_candidates = 12;
 
 using Candidates = std::vector<NamedPlace>;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_outer_spaces(std::string_view text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0)
         text.remove_prefix(1);
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
@@ -88,16 +88,16 @@ std::string list_of(const Candidates& found) {
     return fmt::format("{}{}", fmt::join(names, "; "), more);
 }
 
-Error ambiguous(std::string_view option, std::string_view text, const Candidates& found) {
+Error ambiguous(std::string_view text, const Candidates& found) {
     return {ErrorCode::bad_argument,
-            fmt::format("{}: '{}' may be {}; name one of them with its state, or give LAT,LON",
-                        option, printable(text), list_of(found))};
+            fmt::format("'{}' may be {}; name one of them with its state, or give LAT,LON",
+                        printable(text), list_of(found))};
 }
 
-Error unknown(std::string_view option, std::string_view text, const Asked& asked) {
+Error unknown(std::string_view text, const Asked& asked) {
     const auto said = [&](const std::string& meant) {
         return Error{ErrorCode::bad_argument,
-                     fmt::format("{}: there is no place '{}'{}", option, printable(text), meant)};
+                     fmt::format("there is no place '{}'{}", printable(text), meant)};
     };
     // If there is a town of this name elsewhere, the state is wrong, or it is not written with two
     // letters.
@@ -124,41 +124,46 @@ Error unknown(std::string_view option, std::string_view text, const Asked& asked
     return said(did_you_mean(text, names));
 }
 
-std::optional<grid::GeoPoint> position_in(std::string_view text) {
+std::optional<GeoPoint> position_in(std::string_view text) {
     const auto numbers = parse_numbers(std::string(text), ',');
     if (!numbers || numbers->size() != 2) return std::nullopt;
-    return grid::GeoPoint{(*numbers)[0], (*numbers)[1]};
+    return GeoPoint{(*numbers)[0], (*numbers)[1]};
 }
 
 }  // namespace
 
-Result<grid::GeoPoint> parse_place(std::string_view option, const std::string& text) {
-    const std::string_view given = trimmed(text);
+Result<GeoPoint> place_named(const std::string& text) {
+    const std::string_view given = without_outer_spaces(text);
     if (const auto position = position_in(given)) return *position;
     const bool has_letters = std::ranges::any_of(
         given, [](unsigned char c) { return std::isalpha(c) != 0 || c >= 0x80; });
     if (!has_letters) {
-        return fail(ErrorCode::bad_argument, "{} takes {}, not '{}'", option, place_for_help,
+        return fail(ErrorCode::bad_argument, "must be {}, not '{}'", place_for_help,
                     printable(text));
     }
     if (const auto icao = icao_of(given)) {
         if (const auto station = find_station(*icao))
-            return grid::GeoPoint{station->latitude_deg, station->longitude_deg};
+            return GeoPoint{station->latitude_deg, station->longitude_deg};
     }
     const Asked asked = parts_of(given);
     Candidates found = towns_called(asked);
     if (found.empty()) found = radars_called(asked);
-    if (found.empty()) return tl::unexpected(unknown(option, given, asked));
-    if (found.size() > 1) return tl::unexpected(ambiguous(option, given, found));
-    return grid::GeoPoint{found.front().latitude_deg, found.front().longitude_deg};
+    if (found.empty()) return tl::unexpected(unknown(given, asked));
+    if (found.size() > 1) return tl::unexpected(ambiguous(given, found));
+    return GeoPoint{found.front().latitude_deg, found.front().longitude_deg};
 }
 
-Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
-                                                     const std::string& text) {
+Result<GeoPoint> parse_place(std::string_view option, const std::string& text) {
+    auto place = place_named(text);
+    if (!place) return fail(place.error().code, "{}: {}", option, place.error().message);
+    return place;
+}
+
+Result<std::vector<GeoPoint>> parse_two_places(std::string_view option, const std::string& text) {
     const auto numbers = parse_numbers(text, ',');
     if (numbers && numbers->size() == 4) {
-        return std::vector<grid::GeoPoint>{{(*numbers)[0], (*numbers)[1]},
-                                           {(*numbers)[2], (*numbers)[3]}};
+        return std::vector<GeoPoint>{{(*numbers)[0], (*numbers)[1]},
+                                     {(*numbers)[2], (*numbers)[3]}};
     }
     const std::size_t middle = text.find(';');
     if (middle == std::string::npos || text.find(';', middle + 1) != std::string::npos) {
@@ -167,7 +172,7 @@ Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
                     "'{}'",
                     option, printable(text));
     }
-    std::vector<grid::GeoPoint> places;
+    std::vector<GeoPoint> places;
     for (const std::string& one : {text.substr(0, middle), text.substr(middle + 1)}) {
         const auto place = parse_place(option, one);
         if (!place) return pass_on(place);
@@ -176,4 +181,4 @@ Result<std::vector<grid::GeoPoint>> parse_two_places(std::string_view option,
     return places;
 }
 
-}  // namespace stormcellar::render
+}  // namespace stormcellar::grid

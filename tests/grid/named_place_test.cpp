@@ -1,11 +1,11 @@
-#include "render/options/named_place.h"
+#include "grid/frame/named_place.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "stormcellar/base/station_table.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::grid {
 namespace {
 
 using ::testing::AllOf;
@@ -13,14 +13,14 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 void expect_at(const char* text, double latitude_deg, double longitude_deg, double off_deg = 0.05) {
-    const auto place = render::parse_place("--at", text);
+    const auto place = parse_place("--at", text);
     ASSERT_TRUE(place) << text << ": " << place.error().message;
     EXPECT_NEAR(place->latitude_deg, latitude_deg, off_deg) << text;
     EXPECT_NEAR(place->longitude_deg, longitude_deg, off_deg) << text;
 }
 
 std::string refusal(const char* text) {
-    const auto place = render::parse_place("--at", text);
+    const auto place = parse_place("--at", text);
     EXPECT_FALSE(place) << text;
     return place ? "" : place.error().message;
 }
@@ -28,9 +28,9 @@ std::string refusal(const char* text) {
 TEST(NamedPlace, NumbersAreAPlace) {
     expect_at("35.3,-97.5", 35.3, -97.5, 1e-9);
     expect_at(" 35.3,-97.5 ", 35.3, -97.5, 1e-9);
-    EXPECT_THAT(refusal("35.3"), HasSubstr("--at takes LAT,LON in degrees"));
-    EXPECT_THAT(refusal("35.3,-97.5,1"), HasSubstr("--at takes LAT,LON"));
-    EXPECT_THAT(refusal(""), HasSubstr("--at takes LAT,LON"));
+    EXPECT_THAT(refusal("35.3"), HasSubstr("--at: must be LAT,LON in degrees"));
+    EXPECT_THAT(refusal("35.3,-97.5,1"), HasSubstr("--at: must be LAT,LON"));
+    EXPECT_THAT(refusal(""), HasSubstr("--at: must be LAT,LON"));
 }
 
 // The expected positions are those of city halls on maps, accurate to a few kilometers.
@@ -81,25 +81,25 @@ TEST(NamedPlace, RadarsByIcaoAndByPlace) {
     expect_at("ktlx", station->latitude_deg, station->longitude_deg, 1e-9);
     for (const Station& one : all_stations()) {
         const std::string name = fmt::format("{}, {}", one.name, one.state);
-        const auto place = render::parse_place("--at", name);
+        const auto place = parse_place("--at", name);
         if (place) continue;
         EXPECT_THAT(place.error().message, HasSubstr("may be")) << name;
     }
 }
 
 TEST(NamedPlace, TwoPlaces) {
-    const auto numbers = render::parse_two_places("--section", "35,-98.5,35.6,-96.5");
+    const auto numbers = parse_two_places("--section", "35,-98.5,35.6,-96.5");
     ASSERT_TRUE(numbers);
     EXPECT_EQ((*numbers)[1].longitude_deg, -96.5);
-    const auto named = render::parse_two_places("--section", "Moore, OK; KINX");
+    const auto named = parse_two_places("--section", "Moore, OK; KINX");
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_NEAR((*named)[0].latitude_deg, 35.34, 0.05);
     EXPECT_EQ((*named)[1].latitude_deg, find_station("KINX")->latitude_deg);
     for (const char* wrong : {"35,-98.5,35.6", "Moore, OK", "a;b;c", ";"})
-        EXPECT_FALSE(render::parse_two_places("--section", wrong)) << wrong;
-    EXPECT_THAT(render::parse_two_places("--section", "Moore; KINX").error().message,
+        EXPECT_FALSE(parse_two_places("--section", wrong)) << wrong;
+    EXPECT_THAT(parse_two_places("--section", "Moore; KINX").error().message,
                 HasSubstr("--section: 'Moore' may be"));
 }
 
 }  // namespace
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::grid
