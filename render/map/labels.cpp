@@ -112,15 +112,19 @@ std::string view_line(const Scene& scene, const FrameFacts& facts, double ring_s
 }
 
 // Places the product and the warnings on one line, so that nothing moves from frame to frame of a
-// loop. The line ends `room` pixels to the right of `left`.
+// loop. The line ends `room` pixels to the right of `left`. Short warnings take only the width that
+// they need, and long ones at most four tenths of the line.
 void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, double baseline,
                  double room, double size) {
     const double gap = builder.scaled(14);
+    const LabelStyle warning{size, true, builder.shades().warning_text};
+    const double for_warnings =
+        texts.warnings.empty()
+            ? 0
+            : std::min(gap + std::ceil(builder.width_of(texts.warnings, warning)), 0.4 * room);
     const double width =
-        builder.put(texts.product, left, baseline, texts.warnings.empty() ? room : 0.6 * room,
-                    builder.quiet(size));
-    builder.put(texts.warnings, left + width + gap, baseline, room - width - gap,
-                {size, true, builder.shades().warning_text});
+        builder.put(texts.product, left, baseline, room - for_warnings, builder.quiet(size));
+    builder.put(texts.warnings, left + width + gap, baseline, room - width - gap, warning);
 }
 
 // Takes room for the small map of a section: from the colors if they are at the right, or from the

@@ -178,6 +178,19 @@ std::vector<std::string> texts_of(const Scene& scene, const FrameFacts& facts) {
     return texts;
 }
 
+// 2026-11-30: a short warning took four tenths of the line, and the product was cut.
+TEST(Labels, AShortWarningLeavesTheRestOfTheLineToTheProduct) {
+    Scene scene;
+    scene.product = Product::composite;
+    FrameFacts facts = facts_for("KDMX", 1, true);
+    facts.quality =
+        "probability of weather at least 0.5; 12.3 % of the echo left out: birds and insects 8.1 "
+        "%, ground clutter 3.0 %";
+    const std::vector<std::string> texts = texts_of(scene, facts);
+    EXPECT_THAT(texts, ::testing::Contains(product_line(scene, facts)));
+    EXPECT_THAT(texts, ::testing::Contains("partial volume"));
+}
+
 TEST(Labels, AFrameBetweenVolumesSaysSoBelowItsTime) {
     const Fonts fonts = Fonts::load().value();
     const Scene scene;
