@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "stormcellar/retrieve/vertical_liquid.h"
+
 namespace stormcellar::cli {
 namespace {
 
@@ -82,7 +84,11 @@ Result<std::vector<CellGrids>> cell_grids_of_files(const CellInput& input) {
 Result<retrieve::CellScan> scan_grid(const PictureGrid& reflectivity, const PictureGrid* shear,
                                      const PictureGrid* before, const std::string& area,
                                      const std::optional<retrieve::FreezingLevels>& freezing) {
-    retrieve::CellFields fields{reflectivity.view(), {}, freezing};
+    retrieve::CellFields fields{
+        .reflectivity = reflectivity.view(),
+        .azimuthal_shear = std::nullopt,
+        .freezing = freezing,
+        .radar_m = retrieve::mean_radar_height_m(reflectivity.description().sites)};
     if (shear != nullptr) fields.azimuthal_shear = shear->view();
     auto scan = retrieve::find_cells(fields, reflectivity.description().time, area);
     if (!scan) return scan;

@@ -11,6 +11,7 @@
 #include "render/products/hail_field.h"
 #include "render/products/sweep_field.h"
 #include "stormcellar/render/view_geometry.h"
+#include "stormcellar/retrieve/vertical_liquid.h"
 
 namespace stormcellar::render {
 namespace {
@@ -91,42 +92,10 @@ std::optional<EchoTop> echo_top(const ColumnCells& cells, const std::vector<doub
     return std::nullopt;
 }
 
-constexpr double vil_cap_dbz = 56;
-
-double linear_z(CellStatus status, float dbz) {
-    if (status != CellStatus::value) return 0;
-    return std::pow(10.0, std::min(static_cast<double>(dbz), vil_cap_dbz) / 10);
-}
-
-double liquid(double z, double thickness_m) {
-    if (z <= 0) return 0;
-    return 3.44e-6 * std::pow(z, 4.0 / 7) * thickness_m;
-}
-
-double vil_of(const ColumnCells& cells, const std::vector<double>& levels_m,
-              const HeightRange& range) {
-    const auto is_known = [&](std::size_t i) {
-        return cells.status[i] == CellStatus::value || cells.status[i] == CellStatus::no_echo;
-    };
-    const auto z_of = [&](std::size_t i) { return linear_z(cells.status[i], cells.values[i]); };
-    const std::size_t last = levels_m.size() - 1;
-    double sum = 0;
-    double below = z_of(0);
-    if (is_known(0)) sum += liquid(below, levels_m.front() - range.bottom_m);
-    for (std::size_t i = 0; i < last; ++i) {
-        const double thickness_m = levels_m[i + 1] - levels_m[i];
-        const double above = z_of(i + 1);
-        if (is_known(i) && is_known(i + 1)) {
-            sum += liquid((below + above) / 2, thickness_m);
-        } else if (is_known(i)) {
-            sum += liquid(below, thickness_m / 2);
-        } else if (is_known(i + 1)) {
-            sum += liquid(above, thickness_m / 2);
-        }
-        below = above;
-    }
-    if (is_known(last)) sum += liquid(below, range.top_m - levels_m.back());
-    return sum;
+// Returns the heights of a grid's columns for VIL.
+retrieve::LiquidColumn liquid_column(const grid::GridSpec& spec, std::optional<double> radar_m) {
+    const HeightRange range = height_range(spec);
+    return {spec.levels_m, range.bottom_m, range.top_m, radar_m};
 }
 
 }  // namespace
@@ -226,8 +195,8 @@ FlatField echo_top_field(const BrickView& view, double threshold_dbz, int thread
     return field;
 }
 
-FlatField vil_field(const BrickView& view, int threads) {
-    const HeightRange range = height_range(*view.spec);
+FlatField vil_field(const BrickView& view, std::optional<double> radar_m, int threads) {
+    const retrieve::LiquidColumn column = liquid_column(*view.spec, radar_m);
     return for_each_column(
         view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
             const bool valued = std::find(cells.status.begin(), cells.status.end(),
@@ -236,21 +205,23 @@ FlatField vil_field(const BrickView& view, int threads) {
                 out.put(place, state_without_value(cells), 0);
                 return;
             }
-            out.put(place, CellStatus::value,
-                    static_cast<float>(vil_of(cells, view.spec->levels_m, range)));
+            const double vil =
+                retrieve::vertical_liquid_kg_per_m2(column, cells.values, cells.status);
+            out.put(place, CellStatus::value, static_cast<float>(vil));
         });
 }
 
 FlatField vil_density_field(const BrickView& view, double threshold_dbz, double radar_m,
                             int threads) {
-    const HeightRange range = height_range(*view.spec);
+    const retrieve::LiquidColumn column = liquid_column(*view.spec, radar_m);
     const auto& levels_m = view.spec->levels_m;
     return for_each_column(
         view, threads, [&](const ColumnCells& cells, FlatField& out, std::size_t place) {
             const auto top = echo_top(cells, levels_m, threshold_dbz);
             if (!top) return out.put(place, state_without_value(cells), 0);
             const double depth_m = std::max(top->height_m - radar_m, least_depth_m);
-            const double g_per_m2 = 1000 * vil_of(cells, levels_m, range);
+            const double g_per_m2 =
+                1000 * retrieve::vertical_liquid_kg_per_m2(column, cells.values, cells.status);
             out.put(place, CellStatus::value, static_cast<float>(g_per_m2 / depth_m));
         });
 }
@@ -304,11 +275,7 @@ double lowest_radar_m(const FrameFacts& facts) {
 }  // namespace
 
 double radar_height_m(const FrameFacts& facts) {
-    if (facts.sites.empty()) return 0;
-    double sum_m = 0;
-    for (const grid::SitePosition& site : facts.sites)
-        sum_m += site.altitude_m;
-    return sum_m / static_cast<double>(facts.sites.size());
+    return retrieve::mean_radar_height_m(facts.sites).value_or(0);
 }
 
 FlatField rain_total_field(const BrickView& view, int threads) {
@@ -354,7 +321,7 @@ Result<FlatField> map_field(const BrickView& view, const FrameFacts& facts, cons
         case Product::echo_top:
             return echo_top_field(view, scene.echo_top_dbz, threads);
         case Product::vil:
-            return vil_field(view, threads);
+            return vil_field(view, retrieve::mean_radar_height_m(facts.sites), threads);
         case Product::vil_density:
             return vil_density_field(view, scene.echo_top_dbz, radar_height_m(facts), threads);
         case Product::maximum_height:

@@ -9,12 +9,8 @@
 //               between the two. If there is no echo above, the top is the height of the cell
 //               itself. If the cell above was not seen, is range folded or does not exist, the top
 //               is not known, and the height is marked "at least".
-//   vil         kg/m2: vertically integrated liquid after Greene and Clark (1972), 3.44e-6 times
-//               the integral of Z^(4/7) over height. Z (mm6/m3) of a layer is the mean of the two
-//               levels around it, capped at 56 dBZ, as the Weather Service does. No echo is Z = 0.
-//               A cell that is not seen or range folded adds nothing: the half layers beside it are
-//               left out. The first and the last level reach half a spacing beyond themselves, as
-//               cells do.
+//   vil         kg/m2: vertically integrated liquid (stormcellar/retrieve/vertical_liquid.h). The
+//               first and the last level reach half a spacing beyond themselves, as cells do.
 //   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
 //                 a mean density, so tall and low storms can be compared; hail has a high density.
 //                 Columns with an echo top have a value. If the top may be higher, or if VIL lacks
@@ -42,6 +38,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/products/column_summary.h"
@@ -80,7 +77,9 @@ struct FlatField {
 // The functions from here to maximum_height_field() need a grid of reflectivity.
 [[nodiscard]] FlatField echo_top_field(const grid::BrickView& view, double threshold_dbz,
                                        int threads);
-[[nodiscard]] FlatField vil_field(const grid::BrickView& view, int threads);
+// `radar_m` is the height of the radar; none if it is unknown.
+[[nodiscard]] FlatField vil_field(const grid::BrickView& view, std::optional<double> radar_m,
+                                  int threads);
 inline constexpr double least_depth_m = 500;
 // `radar_m` is the height of the radar.
 [[nodiscard]] FlatField vil_density_field(const grid::BrickView& view, double threshold_dbz,

@@ -8,13 +8,14 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// The Weather Service caps reflectivity so that hail does not count as liquid water.
-constexpr double liquid_cap_dbz = 56;
 // The moment AZSH has the unit 0.001/s (stormcellar/level2/moment.h).
 constexpr float per_s = 0.001F;
 
-double liquid_kg_per_m2(double z_mm6_m3, double thickness_m) {
-    return z_mm6_m3 > 0 ? 3.44e-6 * std::pow(z_mm6_m3, 4.0 / 7) * thickness_m : 0;
+LiquidColumn liquid_column(const CellFields& fields) {
+    const std::vector<double>& levels_m = fields.reflectivity.spec->levels_m;
+    const std::vector<double> thickness_m = layer_thickness_m(levels_m);
+    return {levels_m, levels_m.front() - thickness_m.front() / 2,
+            levels_m.back() + thickness_m.back() / 2, fields.radar_m};
 }
 
 }  // namespace
@@ -35,10 +36,9 @@ ColumnMeter::ColumnMeter(const CellFields& fields, std::optional<HailLayers> hai
     : fields_(fields),
       hail_(std::move(hail)),
       top_dbz_(top_dbz),
-      thickness_m_(layer_thickness_m(fields.reflectivity.spec->levels_m)),
-      dbz_(thickness_m_.size()),
-      z_(thickness_m_.size()),
-      seen_(thickness_m_.size()) {}
+      liquid_(liquid_column(fields)),
+      dbz_(liquid_.levels_m.size()),
+      seen_(dbz_.size()) {}
 
 void ColumnMeter::measure(StormCell& cell) {
     double most_liquid = 0;
@@ -47,7 +47,7 @@ void ColumnMeter::measure(StormCell& cell) {
         for (int ix = run.first_x; ix < run.end_x; ++ix) {
             read(ix, run.iy);
             measure_top(cell);
-            most_liquid = std::max(most_liquid, vil());
+            most_liquid = std::max(most_liquid, vertical_liquid_kg_per_m2(liquid_, dbz_, seen_));
             if (hail_) {
                 const float mesh_mm = hail_of_column(*hail_, dbz_).mesh_mm;
                 if (!cell.mesh_mm || mesh_mm > *cell.mesh_mm) most_hail_dbz = dbz_;
@@ -73,8 +73,6 @@ void ColumnMeter::read(int ix, int iy) {
         seen_[i] = view.status(ix, iy, iz);
         const bool has_value = seen_[i] == grid::CellStatus::value;
         dbz_[i] = has_value ? view.value(ix, iy, iz) : std::numeric_limits<float>::quiet_NaN();
-        const double capped = std::min(static_cast<double>(dbz_[i]), liquid_cap_dbz);
-        z_[i] = has_value ? std::pow(10.0, capped / 10) : 0;
     }
 }
 
@@ -95,25 +93,6 @@ void ColumnMeter::measure_top(StormCell& cell) const {
         top_m = std::lerp(levels_m[highest], levels_m[i], share);
     }
     cell.top_m = std::max(cell.top_m, static_cast<float>(top_m));
-}
-
-// Integrates as the product `vil` does: the layer between two levels has the mean of both; beside a
-// cell that was not seen, half a layer counts.
-double ColumnMeter::vil() const {
-    const std::vector<double>& levels_m = fields_.reflectivity.spec->levels_m;
-    const std::size_t n = z_.size();
-    double sum = 0;
-    if (is_seen(seen_[0])) sum += liquid_kg_per_m2(z_[0], thickness_m_[0] / 2);
-    if (is_seen(seen_[n - 1])) sum += liquid_kg_per_m2(z_[n - 1], thickness_m_[n - 1] / 2);
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        const double between_m = levels_m[i + 1] - levels_m[i];
-        const bool below = is_seen(seen_[i]), above = is_seen(seen_[i + 1]);
-        if (below && above)
-            sum += liquid_kg_per_m2((z_[i] + z_[i + 1]) / 2, between_m);
-        else if (below || above)
-            sum += liquid_kg_per_m2(z_[i] + z_[i + 1], between_m / 2);
-    }
-    return sum;
 }
 
 // Returns the largest shear of the column where there is echo, because shear outside echo is noise.

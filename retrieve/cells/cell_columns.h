@@ -11,6 +11,7 @@
 
 #include "stormcellar/retrieve/hail.h"
 #include "stormcellar/retrieve/storm_cells.h"
+#include "stormcellar/retrieve/vertical_liquid.h"
 
 namespace stormcellar::retrieve {
 
@@ -30,15 +31,13 @@ class ColumnMeter {
   private:
     void read(int ix, int iy);
     void measure_top(StormCell& cell) const;
-    [[nodiscard]] double vil() const;
     [[nodiscard]] std::optional<float> greatest_shear(int ix, int iy) const;
 
     const CellFields& fields_;
     std::optional<HailLayers> hail_;
     float top_dbz_;
-    std::vector<double> thickness_m_;  // of the layer of each level
-    std::vector<float> dbz_;           // of the column; NaN without a value
-    std::vector<double> z_;            // mm6/m3, capped; 0 without echo
+    LiquidColumn liquid_;
+    std::vector<float> dbz_;  // of the column; NaN without a value
     std::vector<grid::CellStatus> seen_;
 };
 

@@ -168,7 +168,7 @@ TEST(Vil, OfAnEvenColumnIsItsClosedForm) {
     const auto bricks =
         columns_of({repeated(valued(45), 20), repeated(valued(56), 20), repeated(valued(70), 20),
                     repeated(quiet, 20), repeated(unseen, 20), repeated(folded, 20)});
-    const FlatField field = vil_field(bricks.view(), 2);
+    const FlatField field = vil_field(bricks.view(), {}, 2);
     EXPECT_NEAR(field.values[0], 3.44e-6 * std::pow(10, 4.5 * 4 / 7) * 10000, 1e-4);
     EXPECT_NEAR(field.values[1], 3.44e-6 * std::pow(10, 5.6 * 4 / 7) * 10000, 1e-3);
     EXPECT_EQ(field.values[2], field.values[1]) << "capped at 56 dBZ, for hail";
@@ -186,7 +186,7 @@ TEST(Vil, TakesTheMeanOfZInALayerAndLeavesOutWhatWasNotSeen) {
     std::vector<Cell> single = repeated(quiet, 20);
     single[5] = valued(40);
     const auto bricks = columns_of({hidden, single});
-    const FlatField field = vil_field(bricks.view(), 1);
+    const FlatField field = vil_field(bricks.view(), {}, 1);
     EXPECT_NEAR(field.values[0], 3.44e-6 * full * 500, 1e-6) << "half of each layer counts";
     EXPECT_NEAR(field.values[1], 3.44e-6 * halved * 1000, 1e-6) << "both layers have Z / 2";
 }
@@ -226,7 +226,7 @@ TEST(VilDensity, AndTheHeightOfTheMaximumAgreeWithTheSlowForm) {
     constexpr double radar_m = 370;
     const FlatField density = vil_density_field(view, 18.5, radar_m, 2);
     const FlatField height = maximum_height_field(view, 18.5, 2);
-    const FlatField vil = vil_field(view, 1);
+    const FlatField vil = vil_field(view, radar_m, 1);
     int valued = 0;
     for (int iy = 0; iy < 40; ++iy) {
         for (int ix = 0; ix < 40; ++ix) {
@@ -253,7 +253,7 @@ TEST(VilDensity, IsVilOverTheHeightOfTheTopAboveTheRadar) {
                                     {valued(45)}});
     const grid::BrickView view = bricks.view();
     const FlatField density = vil_density_field(view, 18.5, 1000, 1);
-    const FlatField vil = vil_field(view, 1);
+    const FlatField vil = vil_field(view, 1000, 1);
     EXPECT_FLOAT_EQ(density.values[0], vil.values[0] * 1000 / 4000)
         << "the echo reaches up to 5 km";
     EXPECT_EQ(density.status[1], CellStatus::no_echo);
@@ -325,7 +325,7 @@ TEST(FlatFields, AreTheSameForAnyNumberOfThreads) {
     const auto view = bricks.view();
     for (const int threads : {2, 5}) {
         EXPECT_EQ(echo_top_field(view, 18.5, threads).values, echo_top_field(view, 18.5, 1).values);
-        EXPECT_EQ(vil_field(view, threads).values, vil_field(view, 1).values);
+        EXPECT_EQ(vil_field(view, 0, threads).values, vil_field(view, 0, 1).values);
         EXPECT_EQ(cappi_field(view, Moment::ref, 3210, threads)->values,
                   cappi_field(view, Moment::ref, 3210, 1)->values);
     }

@@ -115,7 +115,7 @@ TEST_F(RealProducts, EchoTopsAndVilAreThoseOfSevereStorms) {
         static_cast<double>(*std::max_element(tops.values.begin(), tops.values.end()));
     EXPECT_GT(highest, 13);
     EXPECT_LT(highest, 16.1);
-    const FlatField vil = vil_field(view, 2);
+    const FlatField vil = vil_field(view, {}, 2);
     const auto most = std::max_element(vil.values.begin(), vil.values.end());
     const auto column = static_cast<std::size_t>(most - vil.values.begin());
     RecordProperty("vil", std::to_string(*most));

@@ -71,7 +71,7 @@ struct StormCell {
     // between levels. `top_is_at_least` if the air above such echo was not seen in some column.
     float top_m = 0;
     bool top_is_at_least = false;
-    float vil_kg_per_m2 = 0;       // the largest of its columns; reflectivity counts up to 56 dBZ
+    float vil_kg_per_m2 = 0;       // the largest of its columns (vertical_liquid.h)
     std::optional<float> mesh_mm;  // the largest of its columns; absent without freezing levels
     // MESH of the column with the largest, if both freezing levels err by usual_level_error_m.
     std::optional<MeshRange> mesh_range;
@@ -95,6 +95,9 @@ struct CellFields {
     grid::BrickView reflectivity;
     std::optional<grid::BrickView> azimuthal_shear;  // of the moment AZSH, in 0.001/s
     std::optional<FreezingLevels> freezing;          // for hail
+    // The height of the radar above sea level, of several radars the mean, for VIL
+    // (vertical_liquid.h); none if it is unknown.
+    std::optional<double> radar_m = {};
 };
 
 // Finds the cells of a grid. Errors: bad_argument if an option makes no sense, if the spec is not

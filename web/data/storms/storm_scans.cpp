@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "stormcellar/retrieve/vertical_liquid.h"
+
 namespace stormcellar::web {
 namespace {
 
@@ -22,7 +24,10 @@ std::uint64_t bytes_of(const CellScan& scan) {
 Result<CellScan> search(const OpenGrid& grid, const OpenGrid* shear, const OpenGrid* before,
                         const retrieve::FreezingLevels& freezing) {
     retrieve::CellFields fields{
-        .reflectivity = grid.file.view(), .azimuthal_shear = std::nullopt, .freezing = freezing};
+        .reflectivity = grid.file.view(),
+        .azimuthal_shear = std::nullopt,
+        .freezing = freezing,
+        .radar_m = retrieve::mean_radar_height_m(grid.file.description().sites)};
     const grid::GridSpec& spec = *fields.reflectivity.spec;
     if (shear != nullptr && *shear->file.view().spec == spec)
         fields.azimuthal_shear = shear->file.view();
