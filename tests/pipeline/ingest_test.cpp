@@ -371,6 +371,21 @@ TEST_F(IngestTest, FileThatIsGoneIsMarkedSo) {
     EXPECT_EQ(only_entry("KTLX").state, FileState::gone);
 }
 
+// 2026-11-30: such a volume was rejected as too large, because the limit counted a single moment.
+TEST_F(IngestTest, KdpAloneMayComeFromAVolumeWhoseMomentsTakeMoreThanOneShould) {
+    STORMCELLAR_NEED_DATA();
+    IngestOptions options = small_grid();
+    options.moments = {Moment::kdp};
+    EXPECT_EQ(decoded_for({Moment::ref}, 0).moments, std::vector{Moment::ref});
+    EXPECT_TRUE(decoded_for({Moment::ref}, 0.5).moments.empty());
+    Ingestor ingestor(catalog_, store_, options);
+    const auto outcome =
+        ingestor.ingest(testing::real_file("volumes/KLOT20220317_000842_V06"), false);
+    ASSERT_TRUE(outcome) << outcome.error().message;
+    EXPECT_EQ(outcome->result(), IngestResult::gridded) << outcome->reason;
+    EXPECT_EQ(store_.list("KLOT", Moment::kdp, std::nullopt, std::nullopt)->size(), 1U);
+}
+
 class DerivedIngestTest : public SmallHouse {
   protected:
     DerivedIngestTest() : SmallHouse(options()) {}
