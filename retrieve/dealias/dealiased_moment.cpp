@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "retrieve/dealias/fine_velocity.h"
 #include "retrieve/dealias/velocity_sheet.h"
 #include "stormcellar/retrieve/dealias.h"
 
@@ -23,9 +24,6 @@ constexpr std::array<std::pair<Dealiasing, std::string_view>, 5> rung_names = {
      {Dealiasing::anchored, "anchored"},
      {Dealiasing::automatic, "auto"}}};
 
-// VELD is in steps of 0.01 m/s, in which radars send the Nyquist velocity, so raw + 2 n Nyquist is
-// exact. Code 32768 is 0 m/s.
-constexpr float steps_per_mps = 100, code_of_zero = 32768;
 constexpr float greatest_mps = 320;
 constexpr std::uint16_t ambiguous_code = 2;
 
@@ -36,18 +34,13 @@ std::uint16_t dealiased_code(const SweepMoment& raw, std::uint16_t code, float n
     const float velocity = raw.value_of(code) + turned;
     const bool has_value = !is_ambiguous && std::abs(velocity) <= greatest_mps;
     if (!has_value) return ambiguous_code;
-    return static_cast<std::uint16_t>(std::lrint(velocity * steps_per_mps + code_of_zero));
+    return fine_velocity_code(velocity);
 }
 
 SweepMoment dealiased_moment(const level2::Sweep& sweep, const SweepFolds& folds) {
     const SweepMoment& raw = sweep.moments[folds.moment];
-    SweepMoment made = raw;
+    SweepMoment made = with_fine_codes(raw, folds.folds.size());
     made.moment = Moment::veld;
-    made.word_size_bits = 16;
-    made.scale = steps_per_mps;
-    made.offset = code_of_zero;
-    made.codes8.clear();
-    made.codes16.assign(folds.folds.size(), 0);
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
         const float nyquist_mps = sweep.radials[radial].nyquist_mps;
         const std::size_t row = radial * static_cast<std::size_t>(raw.gate_stride);

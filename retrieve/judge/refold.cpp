@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/floating_point.h"
+#include "retrieve/dealias/fine_velocity.h"
 #include "retrieve/dealias/velocity_sheet.h"
 
 namespace stormcellar::retrieve {
@@ -12,9 +13,6 @@ namespace {
 
 using level2::GateStatus;
 using level2::SweepMoment;
-
-// Velocities are stored in steps of 0.01 m/s. Code 32768 is 0 m/s.
-constexpr float steps_per_mps = 100, code_of_zero = 32768;
 
 std::size_t row_of(const SweepMoment& moment, std::size_t radial) {
     return radial * static_cast<std::size_t>(moment.gate_stride);
@@ -37,22 +35,11 @@ bool fits(const level2::Volume& volume, const std::vector<SweepFolds>& folds) {
     return next == folds.size();
 }
 
-// Returns the moment in finer codes, without its valid velocities.
-SweepMoment with_fine_codes(const SweepMoment& raw, std::size_t radials) {
-    SweepMoment made = raw;
-    made.word_size_bits = 16;
-    made.scale = steps_per_mps;
-    made.offset = code_of_zero;
-    made.codes8.clear();
-    made.codes16.assign(row_of(raw, radials), 0);
-    return made;
-}
-
 // Folds one moment of a sweep again. The sweep still has its real Nyquist velocities.
 SweepMoment refolded(const level2::Sweep& sweep, SweepFolds& folds, double nyquist_mps) {
     constexpr int most_fold = std::numeric_limits<std::int8_t>::max();
     const SweepMoment& raw = sweep.moments[folds.moment];
-    SweepMoment made = with_fine_codes(raw, sweep.radials.size());
+    SweepMoment made = with_fine_codes(raw, row_of(raw, sweep.radials.size()));
     for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial) {
         const double real_mps = sweep.radials[radial].nyquist_mps;
         const bool is_lower = std::isgreater(real_mps, nyquist_mps);
@@ -73,9 +60,7 @@ SweepMoment refolded(const level2::Sweep& sweep, SweepFolds& folds, double nyqui
                 if (!is_stored) folds.ambiguous[at] = 1;
                 velocity_mps -= 2 * fold * nyquist_mps;
             }
-            made.codes16[at] = static_cast<std::uint16_t>(
-                std::lrint(velocity_mps * static_cast<double>(steps_per_mps) +
-                           static_cast<double>(code_of_zero)));
+            made.codes16[at] = fine_velocity_code(velocity_mps);
         }
     }
     return made;

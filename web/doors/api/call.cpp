@@ -67,6 +67,16 @@ void ApiState::keep_volume(const std::string& key, DecodedVolume volume) {
     volume_ = std::move(volume);
 }
 
+Answered<Kept> kept_or_made(const ApiCall& call, const std::string& key,
+                            const std::function<Result<Kept>()>& make) {
+    KeptAnswers& answers = *call.state.sources().kept;
+    if (auto kept = answers.find(key)) return std::move(*kept);
+    if (call.must_be_quick) return refuse(takes_long());
+    auto made = answers.find_or_make(key, make);
+    if (!made) return refuse(made.error());
+    return std::move(*made);
+}
+
 Result<Kept> kept_compressed(std::string_view bytes, Coding coding) {
     auto sent = compressed(bytes, coding);
     if (!sent) return pass_on(sent);

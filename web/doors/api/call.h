@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -105,6 +106,11 @@ using Answered = tl::expected<T, Answer>;
 [[nodiscard]] inline tl::unexpected<Answer> refuse(const Error& error) {
     return tl::unexpected<Answer>(json_error(error));
 }
+
+// Returns the kept value of a key. If it is not kept, makes and keeps it
+// (KeptAnswers::find_or_make()), or answers takes_long() if the call must be quick.
+[[nodiscard]] Answered<Kept> kept_or_made(const ApiCall& call, const std::string& key,
+                                          const std::function<Result<Kept>()>& make);
 
 // Each of these functions reads a parameter. If it is absent, the function returns none or `usual`.
 // A number must be finite and within its limits.

@@ -58,15 +58,9 @@ Answer api_netcdf(const ApiCall& call) {
     const std::string key =
         fmt::format("netcdf/{}/{}/{}/{}/{}", (*grid)->domain, level2::moment_name((*grid)->moment),
                     format_utc((*grid)->time), (*grid)->id, *deflate);
-    KeptAnswers& answers = *call.state.sources().kept;
-    auto kept = answers.find(key);
-    if (!kept) {
-        if (call.must_be_quick) return takes_long();
-        auto made = answers.find_or_make(
-            key, [&] { return make_netcdf(**grid, static_cast<int>(*deflate)); });
-        if (!made) return json_error(made.error());
-        kept = std::move(*made);
-    }
+    const auto kept =
+        kept_or_made(call, key, [&] { return make_netcdf(**grid, static_cast<int>(*deflate)); });
+    if (!kept) return kept.error();
     Entity entity;
     entity.bytes = {kept->bytes};
     entity.content_type = "application/x-netcdf";

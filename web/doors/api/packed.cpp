@@ -316,14 +316,8 @@ Answer api_between(const ApiCall& call) {
     const std::string key =
         fmt::format("between/{}/{}/{}/{}/{}", named->domain, level2::moment_name(named->moment),
                     format_utc(named->time), call.grids().changes_of(group), coding_name(coding));
-    KeptAnswers& answers = *call.state.sources().kept;
-    auto kept = answers.find(key);
-    if (!kept) {
-        if (call.must_be_quick) return takes_long();
-        auto made = answers.find_or_make(key, [&] { return make_between(call, *named, coding); });
-        if (!made) return json_error(made.error());
-        kept = std::move(*made);
-    }
+    const auto kept = kept_or_made(call, key, [&] { return make_between(call, *named, coding); });
+    if (!kept) return kept.error();
     return packed_answer(call.request, *kept);
 }
 
@@ -340,22 +334,15 @@ Answer api_region_packed(const ApiCall& call) {
     // of changes.
     for (const std::string& site : asked->plan.sites)
         key += fmt::format("/{}", call.grids().changes_of(site));
-    KeptAnswers& answers = *call.state.sources().kept;
-    auto kept = answers.find(key);
-    if (!kept) {
-        if (call.must_be_quick) return takes_long();
-        auto made = answers.find_or_make(key, [&]() -> Result<Kept> {
-            const auto frame = make_region(call.grids(), asked->plan, *time);
-            if (!frame) return pass_on(frame);
-            PackedSource source;
-            source.halved = static_cast<std::uint32_t>(asked->plan.halvings);
-            source.halved_by =
-                source.halved > 0 ? static_cast<std::uint32_t>(HalvedBy::maximum) : 0;
-            return pack_frame(*frame, coding, source);
-        });
-        if (!made) return json_error(made.error());
-        kept = std::move(*made);
-    }
+    const auto kept = kept_or_made(call, key, [&]() -> Result<Kept> {
+        const auto frame = make_region(call.grids(), asked->plan, *time);
+        if (!frame) return pass_on(frame);
+        PackedSource source;
+        source.halved = static_cast<std::uint32_t>(asked->plan.halvings);
+        source.halved_by = source.halved > 0 ? static_cast<std::uint32_t>(HalvedBy::maximum) : 0;
+        return pack_frame(*frame, coding, source);
+    });
+    if (!kept) return kept.error();
     return packed_answer(call.request, *kept);
 }
 
