@@ -123,6 +123,30 @@ TEST(StormCells, VilOfAColumnIsThatOfGreeneAndClark) {
     EXPECT_EQ(cells[0].columns, rows);
 }
 
+// The lowest beam is between the first two levels.
+TEST(StormCells, VilCountsTheAirBelowTheLowestBeam) {
+    grid::Grid grid = quiet_grid(20, {1000, 2000, 3000, 4000, 5000});
+    for (int ix = 5; ix < 12; ++ix) {
+        for (int iy = 5; iy < 12; ++iy) {
+            grid.status[grid.spec.index(ix, iy, 0)] = grid::CellStatus::not_seen;
+            for (int iz = 1; iz < 5; ++iz)
+                set_cell(grid, ix, iy, iz, 50);
+        }
+    }
+    const auto bricks =
+        grid::BrickGrid::from(grid, grid::default_quantization(level2::Moment::ref));
+    const auto vil_with = [&](std::optional<double> radar_m) {
+        CellFields fields{bricks.view(), {}, {}};
+        fields.radar_m = radar_m;
+        const auto scan = find_cells(fields, noon, "KTLX");
+        EXPECT_EQ(scan->cells.size(), 1U);
+        return scan->cells.at(0).vil_kg_per_m2;
+    };
+    const double per_m = 3.44e-6 * std::pow(1e5, 4.0 / 7);
+    EXPECT_NEAR(vil_with(std::nullopt), 4000 * per_m, 0.4 * per_m);
+    EXPECT_NEAR(vil_with(700), 4800 * per_m, 0.5 * per_m);
+}
+
 TEST(StormCells, CellsOfALineSeparate) {
     std::vector<SceneStorm> line;
     for (int i = 0; i < 6; ++i)
