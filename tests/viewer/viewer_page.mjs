@@ -38,11 +38,12 @@ export class ViewerPage {
   goto(view = '') {
     return this.page.goto(`${this.address}/view/#${view}`, { waitUntil: 'commit' });
   }
-  // Opens the page again with a view, and waits for its picture.
+  // Opens the page again with a view, and waits for its picture, and for its panels.
   async open(view = '') {
     await this.page.goto('about:blank');
     await this.goto(view);
     await this.drawn();
+    await this.until(() => document.documentElement.dataset.panels, null, patience);
   }
   // Changes the view, and waits for its fine picture. Ignores a picture that the page draws before it has taken the
   // address.

@@ -44,8 +44,8 @@ TEST_F(Viewer, ThePageNamesOnlyFilesThatThereAre) {
 }
 
 TEST_F(Viewer, ItsPolicyLetsItAskThisServerAlone) {
-    for (const char* target :
-         {"/view/", "/view/viewer.js", "/view/editor.js", "/view/layers.js", "/view/worker.js"}) {
+    for (const char* target : {"/view/", "/view/viewer.js", "/view/editor.js", "/view/layers.js",
+                               "/view/map.js", "/view/panels.js", "/view/worker.js"}) {
         Answer answer = get(target);
         add_common_headers(answer, request_for(target), {});
         const std::string policy = header_of(answer, "Content-Security-Policy");
@@ -84,9 +84,11 @@ TEST_F(Viewer, FilesAreCompressedAndHaveTags) {
 // largest part that the page itself adds.
 TEST_F(Viewer, TheProgramOfTheFirstPictureIsSmall) {
     const std::string bytes = body_of(get("/view/viewer.js", {{"Accept-Encoding", "gzip, zstd"}}));
-    EXPECT_LE(bytes.size(), 84'500u);
-    EXPECT_EQ(get("/view/editor.js").status, 200u) << "the editor is loaded when it is opened";
-    EXPECT_EQ(get("/view/layers.js").status, 200u) << "some layers are loaded when they are on";
+    EXPECT_LE(bytes.size(), 70'000u);
+    // The page loads these programs after its first picture, or when the user asks for them.
+    for (const char* target :
+         {"/view/editor.js", "/view/layers.js", "/view/map.js", "/view/panels.js"})
+        EXPECT_EQ(get(target).status, 200u) << target;
 }
 
 TEST_F(Viewer, NothingElseIsThere) {

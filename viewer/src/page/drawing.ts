@@ -39,6 +39,7 @@ export class Drawing {
     isLoadingLayers = false; // the program of a layer has not come (panels/load_layers.ts)
     drawn: DrawnLayers | null = null; // layers of the last picture
     readonly pictureChanged: (() => void)[] = []; // called after each picture
+    readonly pictureFinished: (() => void)[] = []; // called after each complete picture
     private ground = new Ground(this.app, this.renderer, () => this.draw());
     private streaming = new Streaming(
         this.renderer,
@@ -254,6 +255,7 @@ export class Drawing {
         this.tell({ fetches, missing: detail?.missing ?? 0, held });
         document.documentElement.dataset['drawn'] = shown.key;
         document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
+        for (const act of this.pictureFinished) act();
         if (!this.wish || (detail?.missing ?? 0) > 0) return;
         const { act } = this.wish;
         this.wish = null;

@@ -9,6 +9,8 @@ const farther = 2; // factor for keys that move the scene
 
 export class Keys {
     private actions = new Map<string, () => void>();
+    private early: KeyboardEvent[] | null = []; // keys that came before their actions; null once all actions are there
+    onEarly: () => void = () => undefined; // called when a key comes before its action
 
     constructor(
         private app: App,
@@ -38,6 +40,13 @@ export class Keys {
             known?.();
             action();
         });
+    }
+
+    // Call when all actions have been added. Carries out those of earlier keys.
+    complete(): void {
+        const early = this.early ?? [];
+        this.early = null;
+        for (const event of early) this.press(event);
     }
 
     // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click.
@@ -76,6 +85,9 @@ export class Keys {
             this.app.moved(dragged(camera, geometry, way, farther, event.shiftKey));
         } else if (action) {
             action();
+        } else if (this.early && event.key.length === 1) {
+            this.early.push(event);
+            this.onEarly();
         } else {
             return;
         }

@@ -94,7 +94,7 @@ export class LayerMaker {
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // key of the sweep that is being loaded
     makeRotation: ((of: LoadedGrid) => LoadedGrid) | null = null; // null until its program has come
-    layerCame: () => void = () => undefined; // called when a layer has come or failed, so that told() has changed
+    readonly layerCame: (() => void)[] = []; // called when a layer has come or failed, so that told() has changed
 
     constructor(
         private app: App,
@@ -250,11 +250,14 @@ export class LayerMaker {
             this.comingOthers.add(other.key);
             void this.takeOther(shown, other).then(() => {
                 this.comingOthers.delete(other.key);
-                this.layerCame();
+                this.tellLayerCame();
                 this.came();
             });
         }
         return null;
+    }
+    private tellLayerCame(): void {
+        for (const act of this.layerCame) act();
     }
     private otherOf({ domain, time }: Shown, moment: string): { key: string; moment: string } {
         return { key: Loader.key(domain, moment, time), moment };
@@ -454,7 +457,7 @@ export class LayerMaker {
         if (found || isAbsent(this.sweeps.errorOf(key)) || !this.sweeps.isNeeded(key)) {
             // Tell the listener of a sweep that came or failed earlier, because no other event does. Tell it later,
             // because the listener may be the caller.
-            if (this.toldSweep !== key) queueMicrotask(() => this.layerCame());
+            if (this.toldSweep !== key) queueMicrotask(() => this.tellLayerCame());
             this.toldSweep = key;
             return found;
         }
@@ -467,7 +470,7 @@ export class LayerMaker {
                     this.app.fail(error);
                     this.askLater();
                 }
-                this.layerCame();
+                this.tellLayerCame();
                 this.came();
             });
         }

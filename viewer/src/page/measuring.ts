@@ -11,7 +11,7 @@ import { Drawing } from './drawing';
 import { haloed, pagePixel } from './labels';
 import { Picked, pick } from './picked';
 import { Tool } from './pointers';
-import { texts } from './texts';
+import { panelTexts } from './later_texts';
 
 export type Measure = 'distance' | 'area';
 
@@ -26,7 +26,7 @@ export class MeasureTool implements Tool {
         private tell: (text: string) => void,
         private ended: () => void,
     ) {
-        tell(texts.tools.hint(measure));
+        tell(panelTexts.tools.hint(measure));
     }
 
     click(x: number, y: number): void {
@@ -57,13 +57,13 @@ export class MeasureTool implements Tool {
     private put(): void {
         const { units } = this.app.state;
         const all = this.all;
-        if (all.length < 2) this.tell(texts.tools.hint(this.measure));
+        if (all.length < 2) this.tell(panelTexts.tools.hint(this.measure));
         else if (this.measure === 'distance') {
             const [from, to] = [all[0]!, all[1]!];
             const { distanceM, azimuthDeg } = legOf(from.place, to.place);
             const apartM = to.heightM - from.heightM;
             this.tell(
-                texts.tools.distance(
+                panelTexts.tools.distance(
                     distanceText(distanceM, units),
                     Math.round(azimuthDeg) % 360,
                     `${apartM < 0 ? '−' : '+'}${heightText(Math.abs(apartM), units)}`,
@@ -76,7 +76,7 @@ export class MeasureTool implements Tool {
             );
             const side = units.distance.si;
             this.tell(
-                texts.tools.area(
+                panelTexts.tools.area(
                     `${Number((areaM2(all.map((one) => one.place)) / side ** 2).toPrecision(4))} ${units.distance.symbol}²`,
                     distanceText(around, units),
                 ),

@@ -22,15 +22,15 @@ export class Pointers {
     private pointers = new Map<number, PointerEvent>();
     private travelled = 0;
     private isTaken = false; // the tool has taken the press
-    private tool: Tool;
+    private usual: Tool = {};
+    private tool: Tool = this.usual;
+    // Pixels of the last click and of the resting pointer, until the usual tool has come.
+    private early: { click: [number, number] | null; hover: [number, number] | null } = { click: null, hover: null };
 
     constructor(
         private app: App,
         private drawing: Drawing,
-        private usual: Tool,
-    ) {
-        this.tool = usual;
-    }
+    ) {}
 
     get current(): Tool {
         return this.tool;
@@ -42,12 +42,23 @@ export class Pointers {
         this.drawing.drawMarks();
     }
 
+    // Sets the usual tool, and gives it what the pointer did before the tool came.
+    setUsual(tool: Tool): void {
+        const { click, hover } = this.early;
+        this.early = { click: null, hover: null };
+        this.usual = tool;
+        this.use(null);
+        if (hover) tool.hover?.(...hover);
+        if (click) tool.click?.(...click);
+    }
+
     begin(): void {
         const { picture } = this.drawing;
         picture.addEventListener('pointerdown', (event) => this.down(event));
         picture.addEventListener('pointermove', (event) => this.move(event));
         picture.addEventListener('pointerup', (event) => this.up(event));
         picture.addEventListener('pointercancel', (event) => this.up(event));
+        picture.addEventListener('pointerleave', () => (this.early.hover = null));
         picture.addEventListener('contextmenu', (event) => event.preventDefault());
         picture.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     }
@@ -66,7 +77,10 @@ export class Pointers {
 
     private move(event: PointerEvent): void {
         const before = this.pointers.get(event.pointerId);
-        if (!before) return this.tool.hover?.(...this.at(event));
+        if (!before) {
+            this.early.hover = this.at(event);
+            return this.tool.hover?.(...this.at(event));
+        }
         const geometry = this.drawing.geometry();
         if (!geometry) return;
         const [dx, dy] = [event.clientX - before.clientX, event.clientY - before.clientY];
@@ -97,7 +111,9 @@ export class Pointers {
         if (!this.pointers.delete(event.pointerId)) return;
         if (this.isTaken) this.tool.release?.(...this.at(event));
         this.isTaken = false;
-        if (event.type === 'pointerup' && this.travelled < farthestClick) this.tool.click?.(...this.at(event));
+        if (event.type !== 'pointerup' || this.travelled >= farthestClick) return;
+        this.early.click = this.at(event);
+        this.tool.click?.(...this.at(event));
     }
 
     private wheel(event: WheelEvent): void {

@@ -9,6 +9,8 @@ STORMCELLAR_EMBED(viewer_style, STORMCELLAR_VIEWER_PAGE "/viewer.css");
 STORMCELLAR_EMBED(viewer_program, STORMCELLAR_VIEWER_MADE "/viewer.js");
 STORMCELLAR_EMBED(viewer_editor, STORMCELLAR_VIEWER_MADE "/editor.js");
 STORMCELLAR_EMBED(viewer_layers, STORMCELLAR_VIEWER_MADE "/layers.js");
+STORMCELLAR_EMBED(viewer_map, STORMCELLAR_VIEWER_MADE "/map.js");
+STORMCELLAR_EMBED(viewer_panels, STORMCELLAR_VIEWER_MADE "/panels.js");
 STORMCELLAR_EMBED(viewer_worker, STORMCELLAR_VIEWER_MADE "/worker.js");
 
 namespace stormcellar::web {
@@ -21,6 +23,8 @@ std::span<const ViewerFile> viewer_files() {
         ViewerFile{"viewer.js", script, STORMCELLAR_EMBEDDED(viewer_program)},
         ViewerFile{"editor.js", script, STORMCELLAR_EMBEDDED(viewer_editor)},
         ViewerFile{"layers.js", script, STORMCELLAR_EMBEDDED(viewer_layers)},
+        ViewerFile{"map.js", script, STORMCELLAR_EMBEDDED(viewer_map)},
+        ViewerFile{"panels.js", script, STORMCELLAR_EMBEDDED(viewer_panels)},
         ViewerFile{"worker.js", script, STORMCELLAR_EMBEDDED(viewer_worker)},
     };
     return files;

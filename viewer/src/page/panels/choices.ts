@@ -5,6 +5,7 @@ import { Region, isRegion } from '../../wire/api';
 import { derivedOf, isMoment, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
 import { echoLayers, sweepMoment } from '../../scene/layers';
 import { App } from '../app';
+import { Drawing } from '../drawing';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
 import { texts } from '../texts';
@@ -117,8 +118,15 @@ function putSites(app: App, { sites }: FactsOfShown): void {
     box.hidden = box.textContent === '';
 }
 
-export function addChoices(app: App, facts: FactsOfShown): void {
-    element('title').after(make('p', { id: 'sites-told', hidden: '' }));
+// Names the shown layers.
+function putLayers({ layers }: Drawing): void {
+    const told = layers.told();
+    element('layers-told').textContent = told.join(' · ');
+    element('layers-told').hidden = told.length === 0;
+}
+
+export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): void {
+    element('title').after(make('p', { id: 'layers-told', hidden: '' }), make('p', { id: 'sites-told', hidden: '' }));
     element('notice').after(button('reload', texts.notice.reload, () => location.reload()));
     element('reload').hidden = true;
     app.on('choices', () => putChoices(app));
@@ -134,6 +142,8 @@ export function addChoices(app: App, facts: FactsOfShown): void {
         putNotice(app);
     }, againAfterMs);
     app.on(['shown', 'view'], () => putTitle(app));
+    app.on(['view', 'shown', 'choices', 'units'], () => putLayers(drawing));
+    drawing.layers.layerCame.push(() => putLayers(drawing));
     app.on('shown', () => {
         putMoment(app);
         putSites(app, facts);

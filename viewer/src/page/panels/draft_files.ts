@@ -7,7 +7,7 @@ import { readToml } from '../../tables/toml_file';
 import { tablesOf } from '../../wire/moments';
 import { App } from '../app';
 import { ExportedFile, TableEditing } from '../table_editing';
-import { editorTexts } from '../texts';
+import { editorTexts } from '../later_texts';
 
 // Returns the draft of a file, and a sentence for the user. Throws a TableError for a bad file.
 export function draftFrom({ state, book }: App, text: string, fileName: string): { draft: Draft; said: string } {

@@ -21,7 +21,7 @@ import { Keys } from '../keys';
 import { ColorTable } from '../../wire/color_tables';
 import { ExportedFile, TableEditing } from '../table_editing';
 import { tableTitle } from '../table_book';
-import { editorTexts } from '../texts';
+import { editorTexts } from '../later_texts';
 import { EditorPlot, Selection } from './editor_plot';
 import { draftFrom, palOf } from './draft_files';
 

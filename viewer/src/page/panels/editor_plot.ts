@@ -8,7 +8,7 @@ import { Draft, OpacityPoint } from '../../tables/draft';
 import { ShownUnit } from '../../tables/units';
 import { stepOf } from '../color_bar';
 import { fontOf, make, penOf, textScale } from '../dom';
-import { editorTexts, texts } from '../texts';
+import { editorTexts, panelTexts } from '../later_texts';
 
 export type Kind = 'color' | 'opacity' | 'least';
 export interface Selection {
@@ -52,7 +52,7 @@ export class EditorPlot {
     constructor(private actions: PlotActions) {
         this.canvas.addEventListener('pointerup', (event) => this.addAt(event));
         this.groups = {
-            least: this.group(texts.threshold),
+            least: this.group(panelTexts.threshold),
             opacity: this.group(editorTexts.opacities),
             color: this.group(editorTexts.colors),
         };
@@ -225,7 +225,7 @@ export class EditorPlot {
             'aria-valuetext',
             perKm !== null ? editorTexts.opacityIs(shown, perKm) : color ? editorTexts.colorIs(shown, color) : shown,
         );
-        handle.setAttribute('aria-label', kind === 'least' ? texts.threshold : editorTexts.point(kind, i + 1));
+        handle.setAttribute('aria-label', kind === 'least' ? panelTexts.threshold : editorTexts.point(kind, i + 1));
     }
 
     focus({ kind, at }: Selection): void {

@@ -10,7 +10,7 @@ import { App } from '../app';
 import { fontOf, pixelRatio, textScale } from '../dom';
 import { Drawing } from '../drawing';
 import { Rect, haloed, overlaps } from '../labels';
-import { texts } from '../texts';
+import { plotTexts } from '../later_texts';
 
 const headLength = 4.8;
 const headHalfWidth = 2.6;
@@ -87,7 +87,7 @@ function putKey({ state }: App, pen: CanvasRenderingContext2D, [right, bottom]: 
     const unit = shownUnit('m/s', state.units);
     const shown = 10 * Math.round((nearMps * unit.perStored) / 10);
     const length = ((pixelsPerMps * shown) / unit.perStored) * scale;
-    const words = [texts.layers.glyphAlong(`${shown} ${unit.symbol}`), texts.layers.glyphAcross];
+    const words = [plotTexts.glyphAlong(`${shown} ${unit.symbol}`), plotTexts.glyphAcross];
     pen.font = fontOf(11 * scale);
     const row = 16 * scale;
     const width = length + 24 * scale + Math.max(...words.map((one) => pen.measureText(one).width));

@@ -10,6 +10,7 @@ import { element, paragraph, pixelRatio } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { Picked, pick } from '../picked';
+import { panelTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
 
 const restsAfterMs = 120;
@@ -78,7 +79,7 @@ export class Hover {
     lines(picked: Picked): string[] {
         const { app } = this;
         const { units } = app.state;
-        const words = texts.hover;
+        const words = panelTexts.hover;
         const { layer, state, value, heightM, gate } = picked;
         const way = nearestTo(app.shown?.loaded.grid.sites ?? [], picked.place);
         const from = way
@@ -109,12 +110,12 @@ export class Hover {
 
     // Returns the time of day. It is not an age, because the text may stay on the page.
     private when(timeMs: number): string {
-        return texts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
+        return panelTexts.hover.time(new Date(timeMs).toISOString().slice(11, 19));
     }
 
     private gateLines({ station, elevationDeg, rangeM, azimuthDeg, timeMs, state }: GateHit): string[] {
         const { units } = this.app.state;
-        const beam = texts.hover.beam(
+        const beam = panelTexts.hover.beam(
             elevationDeg.toFixed(1),
             distanceText(beamWidthM(station, rangeM), units),
             distanceText(rangeM, units),
@@ -132,7 +133,7 @@ export class Hover {
         const beam = beamReading(this.app.shown?.loaded.grid.sites ?? [], known, picked.place, picked.heightM);
         if (!beam) return [];
         const told = (sweepDeg: number) =>
-            texts.hover.beam(
+            panelTexts.hover.beam(
                 sweepDeg.toFixed(1),
                 distanceText(beam.widthM, units),
                 distanceText(beam.rangeM, units),
@@ -145,7 +146,7 @@ export class Hover {
         else if (beam.timeMs !== null) lines.push(this.when(beam.timeMs));
         if (beam.rms !== null) {
             const { perStored, symbol } = shownUnit(known?.audit?.unit ?? '', units);
-            lines.push(texts.hover.error(`${(beam.rms * perStored).toFixed(1)} ${symbol}`));
+            lines.push(panelTexts.hover.error(`${(beam.rms * perStored).toFixed(1)} ${symbol}`));
         }
         return lines;
     }

@@ -21,11 +21,11 @@ import { cutText } from '../layer_maker';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
 import { derivedOf, isMoment } from '../../wire/moments';
+import { layerTexts } from '../later_texts';
 import { texts } from '../texts';
-import { loadLayers } from './load_layers';
 import { openSettings } from './look';
 
-const words = texts.layers;
+const words = layerTexts;
 const usualPlaneM = 3000;
 const planeStepM = 500;
 const usualReflectivity = 45;
@@ -69,8 +69,7 @@ interface Toggle {
 }
 
 export class LayersPanel {
-    private box = make('section', { id: 'layers', hidden: '', 'aria-label': words.title });
-    private told = make('p', { id: 'layers-told' }); // text under the title, which names the shown layers
+    private box = make('section', { id: 'layers', hidden: '', 'aria-label': texts.layers.title });
     private toggles: Toggle[] = [];
 
     constructor(
@@ -82,17 +81,13 @@ export class LayersPanel {
     begin(keys: Keys): void {
         element('settings').after(this.box);
         leaveByEscape(this.box, 'layers-open', () => this.open(false));
-        const open = button('layers-open', words.title, () => this.open(this.box.hidden));
-        open.setAttribute('aria-controls', 'layers');
-        open.setAttribute('aria-expanded', 'false');
-        element('open').after(open);
+        element('layers-open').addEventListener('click', () => this.open(this.box.hidden));
         element('open').addEventListener('click', () => this.open(false));
-        element('title').after(this.told);
         this.addLayers(keys);
         addMarks(this.app, this.drawing);
-        loadLayers(this.app, this.drawing);
         this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
-        this.drawing.layers.layerCame = () => this.put();
+        this.drawing.layers.layerCame.push(() => this.put());
+        this.put();
     }
 
     private open(isOpen: boolean): void {
@@ -369,9 +364,6 @@ export class LayersPanel {
             box.checked = isOn();
             if (more) more.hidden = !box.checked;
         }
-        const told = this.drawing.layers.told();
-        this.told.textContent = told.join(' · ');
-        this.told.hidden = told.length === 0;
         const box = wholeBox(this.app);
         if (!box) return;
         if (layers.planeM !== null) this.putPlane(box, layers.planeM);

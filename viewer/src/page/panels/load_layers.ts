@@ -1,9 +1,9 @@
 // Loads the program of the section's plot, of beam glyphs, of rotation and of storm cells when one of them is shown
 // first.
 
-import { address } from '../../wire/api';
 import { App } from '../app';
 import { Drawing } from '../drawing';
+import { laterProgram } from '../later_program';
 
 export function loadLayers(app: App, drawing: Drawing): void {
     let isLoaded = false;
@@ -12,7 +12,7 @@ export function loadLayers(app: App, drawing: Drawing): void {
         if (isLoaded || !(section || hasGlyphs || hasRotation || hasCells)) return;
         isLoaded = drawing.isLoadingLayers = true;
         try {
-            const program = (await import(address('view/layers.js'))) as typeof import('./later_layers');
+            const program = await laterProgram<typeof import('./later_layers')>('layers');
             program.begin(app, drawing);
         } catch (error) {
             isLoaded = false;

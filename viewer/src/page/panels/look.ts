@@ -8,7 +8,7 @@ import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { tableTitle } from '../table_book';
 import { TableEditing } from '../table_editing';
-import { texts } from '../texts';
+import { panelTexts } from '../later_texts';
 
 function putLook(app: App): void {
     const { state, table } = app;
@@ -29,7 +29,7 @@ function putLook(app: App): void {
     }
     const hidden = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
     element('least-value').textContent = hidden;
-    element('least').setAttribute('aria-valuetext', hidden || texts.nothingHidden);
+    element('least').setAttribute('aria-valuetext', hidden || panelTexts.nothingHidden);
     element<HTMLInputElement>('opacity').value = String(Math.log2(state.opacity));
     element('opacity').setAttribute('aria-valuetext', String(state.opacity));
     element<HTMLInputElement>('exaggeration').value = String(state.exaggeration);
@@ -55,14 +55,16 @@ function addSliders(app: App, drawing: Drawing, editing: TableEditing): void {
 function addQuality(app: App): void {
     const select = element<HTMLSelectElement>('quality');
     select.append(
-        new Option(texts.asTimeAllows, ''),
-        ...usualRungs.map(({ name, dE }) => new Option(texts.rung(name, dE), name)),
+        new Option(panelTexts.asTimeAllows, ''),
+        ...usualRungs.map(({ name, dE }) => new Option(panelTexts.rung(name, dE), name)),
     );
     select.addEventListener('change', () => {
         app.state.quality = select.value;
         app.changed();
     });
-    app.on('view', () => (select.value = app.state.quality));
+    const put = () => (select.value = app.state.quality);
+    app.on('view', put);
+    put();
 }
 
 export function openSettings(drawing: Drawing, isOpen: boolean): void {
@@ -73,18 +75,17 @@ export function openSettings(drawing: Drawing, isOpen: boolean): void {
 
 export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEditing): void {
     for (const [id, text] of [
-        ['colors-name', texts.colors],
-        ['least-name', texts.threshold],
-        ['opacity-name', texts.opacity],
-        ['exaggeration-name', texts.exaggeration],
-        ['quality-name', texts.quality],
-        ['open', texts.settings],
+        ['colors-name', panelTexts.colors],
+        ['least-name', panelTexts.threshold],
+        ['opacity-name', panelTexts.opacity],
+        ['exaggeration-name', panelTexts.exaggeration],
+        ['quality-name', panelTexts.quality],
     ] as const)
         element(id).textContent = text;
     for (const view of ['top', 'south', 'oblique'] as const) {
-        element('views').append(button(`view-${view}`, texts[view], () => keys.look(view)));
+        element('views').append(button(`view-${view}`, panelTexts[view], () => keys.look(view)));
     }
-    element('views').append(button('perspective', texts.perspective, () => keys.togglePerspective()));
+    element('views').append(button('perspective', panelTexts.perspective, () => keys.togglePerspective()));
     element('colors').addEventListener('change', (event) => {
         editing.choosePreset((event.target as HTMLSelectElement).value);
     });
@@ -94,4 +95,5 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
     leaveByEscape(element('settings'), 'open', () => openSettings(drawing, false));
     keys.add('Escape', () => openSettings(drawing, false));
     app.on(['view', 'camera'], () => putLook(app));
+    putLook(app);
 }

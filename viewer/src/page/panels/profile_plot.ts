@@ -6,14 +6,14 @@ import { App } from '../app';
 import { fontOf, make, pixelRatio, textScale } from '../dom';
 import { ColumnReading, LevelReading } from '../column_reading';
 import { shades } from '../../renderer/shades';
-import { texts } from '../texts';
+import { panelTexts } from '../later_texts';
 import { CellState } from '../../wire/packed_grid';
 
 const [width, height] = [250, 130]; // pixels at the usual size of texts
 const [left, bottom] = [52, 20];
 
 export function profilePlot(app: App, reading: ColumnReading): HTMLCanvasElement {
-    const canvas = make('canvas', { class: 'profile', role: 'img', 'aria-label': texts.tools.profile });
+    const canvas = make('canvas', { class: 'profile', role: 'img', 'aria-label': panelTexts.tools.profile });
     const { shownTable: table, unit } = app;
     const { units } = app.state;
     const scale = pixelRatio() * textScale();

@@ -14,6 +14,7 @@ import { pagePixel } from '../labels';
 import { Picked, pick } from '../picked';
 import { Tool } from '../pointers';
 import { ColumnReading, columnAt, readColumn } from '../column_reading';
+import { panelTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
 import { Hover } from './hover';
 import { profilePlot } from './profile_plot';
@@ -27,7 +28,7 @@ function summaryOf({ levels, greatest, seenM }: ColumnReading, unit: string, uni
     const why = unknown.find((state) => levels.some((level) => level.state === state));
     if (!greatest && why !== undefined) return stateText(why);
     if (greatest)
-        return texts.greatestAt(
+        return panelTexts.greatestAt(
             valueText(greatest.value, unit, units, mostDigits),
             heightText(greatest.heightM, units),
         );
@@ -41,7 +42,7 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
     if (reading.seenM) {
         const [fromM, toM] = reading.seenM;
         body.append(
-            paragraph(texts.seenBetween(heightNumber(fromM, units), heightText(toM, units))),
+            paragraph(panelTexts.seenBetween(heightNumber(fromM, units), heightText(toM, units))),
             profilePlot(app, reading),
         );
     }
@@ -64,7 +65,7 @@ export class Reader implements Tool {
     private picked: { of: Shown; what: Picked } | null = null; // reading of the last click, and its grid
     private waits: [number, number] | null = null; // pixel of a click for which cells along the ray have not come
     private domain = '';
-    private close = labeledButton('reading-close', '×', texts.close, () => this.leave());
+    private close = labeledButton('reading-close', '×', panelTexts.close, () => this.leave());
 
     constructor(
         private app: App,
@@ -73,6 +74,7 @@ export class Reader implements Tool {
     ) {}
 
     begin(keys: Keys): void {
+        this.domain = this.app.state.domain;
         this.app.on('choices', () => this.takeDomain());
         this.app.on(['shown', 'units'], () => {
             if (this.at) this.put();
@@ -85,7 +87,7 @@ export class Reader implements Tool {
         keys.add('Escape', () => this.clear());
         keys.add('?', () => this.showHelp());
         this.drawing.addOverlay((pen, geometry) => this.draw(pen, geometry));
-        element('actions').append(button('help', texts.help, () => this.showHelp()));
+        element('actions').append(button('help', panelTexts.help, () => this.showHelp()));
     }
 
     hover(x: number, y: number): void {
@@ -160,14 +162,14 @@ export class Reader implements Tool {
         const { at } = this;
         const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
-        const title = make('h2', {}, texts.place(place.latitudeDeg, place.longitudeDeg));
+        const title = make('h2', {}, panelTexts.place(place.latitudeDeg, place.longitudeDeg));
         const body = make('div');
         // Tell the reading of the click only while the same grid is shown. Read the column in each new grid.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
         if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());
-        if (said.length > 0) body.append(...said.map(paragraph), paragraph(texts.column));
-        if (!column) body.append(paragraph(texts.hover.outside));
+        if (said.length > 0) body.append(...said.map(paragraph), paragraph(panelTexts.column));
+        if (!column) body.append(paragraph(panelTexts.hover.outside));
         if (column) {
             gridForColumn(shown.loaded, column)
                 .then((exact) => {
@@ -184,7 +186,7 @@ export class Reader implements Tool {
     private showHelp(): void {
         this.clear();
         const box = element('reading');
-        box.replaceChildren(this.close, ...texts.helpText.map(paragraph));
+        box.replaceChildren(this.close, ...panelTexts.helpText.map(paragraph));
         box.hidden = false;
     }
 }

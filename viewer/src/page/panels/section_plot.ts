@@ -8,6 +8,7 @@ import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { fontOf, make, pixelRatio, textScale } from '../dom';
+import { plotTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
 import { Windows } from '../windows';
 
@@ -18,9 +19,9 @@ const hatchPeriod = 9;
 // Returns the reason why a section has no value.
 function nothingIn({ field, inGrid }: Section): string {
     if (!inGrid.includes(1)) return texts.layers.beyond;
-    if (field.states.includes(CellState.ambiguous)) return texts.layers.nothingButAmbiguous;
-    if (field.states.includes(CellState.rangeFolded)) return texts.layers.nothingButFolded;
-    return field.states.includes(CellState.noEcho) ? texts.layers.nothing : texts.notSeen;
+    if (field.states.includes(CellState.ambiguous)) return plotTexts.nothingButAmbiguous;
+    if (field.states.includes(CellState.rangeFolded)) return plotTexts.nothingButFolded;
+    return field.states.includes(CellState.noEcho) ? plotTexts.nothing : texts.notSeen;
 }
 
 function tickStep(range: number, most: number): number {
@@ -57,7 +58,7 @@ export class SectionPlot {
         id: 'section-canvas',
         tabindex: '0',
         role: 'img',
-        'aria-label': texts.layers.plot,
+        'aria-label': plotTexts.plot,
     });
     private reading = make('output', { id: 'section-reading' });
     private box = make('section', { id: 'section-plot', hidden: '' }, this.canvas, this.reading);
@@ -191,12 +192,12 @@ export class SectionPlot {
         if (!section) return;
         const { units } = app.state;
         const told = (what: string, distanceM: number, heightM: number) =>
-            texts.layers.told(what, distanceText(distanceM, units), heightText(heightM, units));
+            plotTexts.told(what, distanceText(distanceM, units), heightText(heightM, units));
         const ofValue = (value: number) => valueText(value, app.unit, units, 1);
         if (!this.cursor) {
             const greatest = greatestOf(section);
             this.reading.textContent = greatest
-                ? texts.layers.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM))
+                ? plotTexts.greatest(told(ofValue(greatest.value), greatest.distanceM, greatest.heightM))
                 : nothingIn(section);
             return;
         }

@@ -11,7 +11,7 @@ import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { snapshotOf } from '../snapshot';
 import { TableEditing } from '../table_editing';
-import { texts } from '../texts';
+import { panelTexts } from '../later_texts';
 
 // Copies a text, and says so. Browsers give no clipboard to pages from another machine over plain HTTP; the user then
 // copies the text from a dialog.
@@ -19,13 +19,13 @@ function copy(app: App, text: string, said: string, ...notes: string[]): void {
     const { clipboard } = navigator as Partial<Navigator>;
     (clipboard ? clipboard.writeText(text) : Promise.reject(new Error('no clipboard'))).then(
         () => app.say([said, ...notes].join(' ')),
-        () => window.prompt([texts.copyByHand, ...notes].join(' '), text),
+        () => window.prompt([panelTexts.copyByHand, ...notes].join(' '), text),
     );
 }
 
 // Saves the next fine picture. Names it by its own domain, moment and time, because others may be loading already.
 function save(app: App, drawing: Drawing): void {
-    app.say(texts.saving);
+    app.say(panelTexts.saving);
     drawing.whenFine(
         () => {
             if (!app.shown) return;
@@ -34,7 +34,7 @@ function save(app: App, drawing: Drawing): void {
             const href = snapshotOf(drawing.picture, drawing.labels).toDataURL('image/png');
             make('a', { download, href }).click();
         },
-        () => app.say(texts.notSaved),
+        () => app.say(panelTexts.notSaved),
     );
 }
 
@@ -76,7 +76,7 @@ class RawFile {
 // Returns the reason why no command draws the view; an empty text if a command does.
 function whyNoCommand(app: App, drawing: Drawing): string {
     const { shown, state } = app;
-    const words = texts.noCommand;
+    const words = panelTexts.noCommand;
     if (!shown) return words.nothing;
     if (shown.domain !== state.domain || shown.moment !== state.moment) return words.coming;
     if (isRegion(shown.domain)) return words.region;
@@ -103,13 +103,13 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
     const layers = { ...app.state.layers, sweepNumber: drawing.layers.shownCut()?.sweep ?? null };
     const state = { ...app.state, domain, moment, time, layers };
     const raw = rawFile.known;
-    const notes = [raw ? texts.commandReads(raw) : texts.commandReadsCache];
-    if (!state.layers.hasVolume && !state.layers.section) notes.push(texts.commandFlat);
+    const notes = [raw ? panelTexts.commandReads(raw) : panelTexts.commandReadsCache];
+    if (!state.layers.hasVolume && !state.layers.section) notes.push(panelTexts.commandFlat);
     const give = (colors: string, ...of: string[]) =>
         copy(
             app,
             commandOf(state, size.width, size.height, colors, raw, rawFile.number),
-            texts.commandCopied,
+            panelTexts.commandCopied,
             ...of,
             ...notes,
         );
@@ -118,7 +118,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
     if (!file) return;
     if (!savedFiles.has(file.name)) saveFile(file.name, file.text);
     savedFiles.add(file.name);
-    give(file.name, texts.commandColors(file.name));
+    give(file.name, panelTexts.commandColors(file.name));
 }
 
 export function addShare(app: App, drawing: Drawing, editing: TableEditing, facts: FactsOfShown): void {
@@ -131,14 +131,15 @@ export function addShare(app: App, drawing: Drawing, editing: TableEditing, fact
     app.on(['view', 'shown', 'choices', 'cells'], mark);
     drawing.pictureChanged.push(mark);
     element('actions').append(
-        button('share', texts.share, () => copy(app, app.link, texts.shared)),
-        button('save', texts.save, () => save(app, drawing)),
-        button('command', texts.command, () => copyCommand(app, drawing, editing, raw)),
-        button('netcdf', texts.netcdf, () => {
+        button('share', panelTexts.share, () => copy(app, app.link, panelTexts.shared)),
+        button('save', panelTexts.save, () => save(app, drawing)),
+        button('command', panelTexts.command, () => copyCommand(app, drawing, editing, raw)),
+        button('netcdf', panelTexts.netcdf, () => {
             const { shown } = app;
             if (!shown) return;
-            if (isRegion(shown.domain) || shown.isBetween) return app.say(texts.noNetcdf);
+            if (isRegion(shown.domain) || shown.isBetween) return app.say(panelTexts.noNetcdf);
             location.href = address(`${gridPath(shown.domain, shown.moment, shown.time)}/netcdf`);
         }),
     );
+    mark();
 }

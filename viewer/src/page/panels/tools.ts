@@ -10,7 +10,7 @@ import { FlyTool } from '../flying';
 import { Keys } from '../keys';
 import { Measure, MeasureTool } from '../measuring';
 import { Pointers, Tool } from '../pointers';
-import { texts } from '../texts';
+import { panelTexts } from '../later_texts';
 
 interface RawFile {
     station: string;
@@ -43,17 +43,17 @@ export class ToolsPanel {
             this.tell('');
         });
         const tools = element('tools');
-        tools.setAttribute('aria-label', texts.tools.name);
+        tools.setAttribute('aria-label', panelTexts.tools.name);
         for (const [id, text, key, toggle] of [
-            ['tool-distance', texts.tools.distanceName, 'd', () => this.measure('distance')],
-            ['tool-area', texts.tools.areaName, 'r', () => this.measure('area')],
-            ['tool-fly', texts.tools.flyName, 'f', () => this.fly()],
+            ['tool-distance', panelTexts.tools.distanceName, 'd', () => this.measure('distance')],
+            ['tool-area', panelTexts.tools.areaName, 'r', () => this.measure('area')],
+            ['tool-fly', panelTexts.tools.flyName, 'f', () => this.fly()],
         ] as const) {
             tools.append(button(id, text, toggle));
             press(id, false);
             keys.add(key, toggle);
         }
-        tools.append(button('raw', texts.tools.raw, () => void this.download()));
+        tools.append(button('raw', panelTexts.tools.raw, () => void this.download()));
         this.drawing.addOverlay((pen, geometry) => {
             const { current } = this.pointers;
             if (current instanceof MeasureTool) current.draw(pen, geometry);
@@ -78,7 +78,7 @@ export class ToolsPanel {
     private fly(): void {
         const isUsed = this.pointers.current instanceof FlyTool;
         this.use('tool-fly', isUsed, (ended) => new FlyTool(this.app, this.drawing, ended));
-        if (!isUsed) this.tell(texts.tools.flyHint);
+        if (!isUsed) this.tell(panelTexts.tools.flyHint);
     }
 
     // Ends the tool in use. Then begins the tool that `make` makes, unless that tool was in use (`isUsed`).
@@ -134,7 +134,7 @@ export class ToolsPanel {
         const links = files.map(({ station, name }) =>
             make('a', { href: rawPath(station, name), download: name }, name),
         );
-        if (links.length === 0) return this.tell(texts.tools.noRaw);
+        if (links.length === 0) return this.tell(panelTexts.tools.noRaw);
         element('tool-says').replaceChildren(...links.flatMap((link) => [link, ' ']));
         if (links.length === 1) links[0]!.click();
     }

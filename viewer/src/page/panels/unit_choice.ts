@@ -3,7 +3,7 @@
 import { Quantity, knownUnits, quantities } from '../../tables/units';
 import { App } from '../app';
 import { element, labeled, make } from '../dom';
-import { texts } from '../texts';
+import { panelTexts } from '../later_texts';
 
 function selectOf(app: App, quantity: Quantity): HTMLLabelElement {
     const select = make('select', { id: `units-${quantity}` });
@@ -11,14 +11,16 @@ function selectOf(app: App, quantity: Quantity): HTMLLabelElement {
     select.addEventListener('change', () => {
         app.useUnits({ ...app.state.units, [quantity]: knownUnits[quantity][select.selectedIndex]! });
     });
-    return labeled(texts.units[quantity], select);
+    return labeled(panelTexts.units[quantity], select);
 }
 
 export function addUnits(app: App): void {
-    element('units').setAttribute('aria-label', texts.units.all);
+    element('units').setAttribute('aria-label', panelTexts.units.all);
     element('units').append(...quantities.map((quantity) => selectOf(app, quantity)));
-    app.on('view', () => {
+    const put = () => {
         for (const quantity of quantities)
             element<HTMLSelectElement>(`units-${quantity}`).value = app.state.units[quantity].name;
-    });
+    };
+    app.on('view', put);
+    put();
 }

@@ -2,6 +2,7 @@
 
 import { Found } from '../../map/places';
 import { element, make } from '../dom';
+import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
 
 export interface ListedPlace {
@@ -12,11 +13,11 @@ export interface ListedPlace {
 }
 
 export function listedStation({ station, near, distanceM }: Found): ListedPlace {
-    const age = station.ageS === null ? texts.start.nothing : texts.start.age(station.ageS);
+    const age = station.ageS === null ? mapTexts.nothing : texts.start.age(station.ageS);
     return {
         domain: station.icao,
         name: station.name,
-        note: near === null ? age : `${texts.start.from(Math.round(distanceM / 1000), near)} · ${age}`,
+        note: near === null ? age : `${mapTexts.from(Math.round(distanceM / 1000), near)} · ${age}`,
         isThere: station.hasGrids,
     };
 }
@@ -32,8 +33,8 @@ export class PlaceList {
     readonly field = element<HTMLInputElement>('search');
 
     constructor(private actions: ListActions) {
-        this.field.placeholder = texts.start.search;
-        this.field.setAttribute('aria-label', texts.start.search);
+        this.field.placeholder = mapTexts.search;
+        this.field.setAttribute('aria-label', mapTexts.search);
         this.field.addEventListener('input', () => actions.search(this.field.value));
         element('places').addEventListener('keydown', (event) => this.press(event));
     }
@@ -42,7 +43,7 @@ export class PlaceList {
         const focused =
             document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
         this.list.replaceChildren(...places.map((place) => this.row(place)));
-        if (places.length === 0) this.list.append(make('li', {}, texts.start.noneFound));
+        if (places.length === 0) this.list.append(make('li', {}, mapTexts.noneFound));
         this.buttons.find((one) => one.dataset['domain'] === focused)?.focus();
     }
 

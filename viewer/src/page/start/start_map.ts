@@ -17,6 +17,7 @@ import { isRegion, regionName } from '../../wire/api';
 import { App } from '../app';
 import { button, element, pixelRatio } from '../dom';
 import { Rect } from '../labels';
+import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
 import { BaseMap } from './base_map';
 import { MapPointers } from './map_pointers';
@@ -57,20 +58,20 @@ export class StartMap {
     }
 
     begin(): void {
-        element('start-title').textContent = texts.start.title;
-        element('start-help').textContent = texts.start.help;
+        element('start-title').textContent = mapTexts.title;
+        element('start-help').textContent = mapTexts.help;
         element('start-actions').append(
-            button('start-box', texts.start.box, () => this.toggleBoxes()),
-            button('start-all', texts.start.all, () => this.fit()),
-            button('start-back', texts.start.back, () => this.goBack()),
+            button('start-box', mapTexts.box, () => this.toggleBoxes()),
+            button('start-all', mapTexts.all, () => this.fit()),
+            button('start-back', mapTexts.back, () => this.goBack()),
         );
-        element('head').prepend(button('to-map', texts.start.toMap, () => this.app.goToMap()));
-        this.canvas.setAttribute('aria-label', texts.start.mapLabel);
+        this.canvas.setAttribute('aria-label', mapTexts.mapLabel);
         this.canvas.addEventListener('keydown', (event) => this.press(event));
         new MapPointers(this.canvas, this).begin();
         window.addEventListener('resize', () => this.resize());
         document.addEventListener('visibilitychange', () => !this.page.hidden && void this.look());
         this.app.on('map', () => this.show(this.app.isOnMap));
+        this.show(this.app.isOnMap);
     }
 
     // -- drawing
@@ -82,7 +83,7 @@ export class StartMap {
         window.clearInterval(this.timer);
         if (!isShown) return;
         element('start-back').hidden = this.app.shown === null;
-        document.title = `${texts.start.title} · ${texts.title}`;
+        document.title = `${mapTexts.title} · ${texts.title}`;
         this.timer = window.setInterval(() => void this.look(), lookAgainAfterMs);
         if (!was) {
             this.canvas.focus();
@@ -263,7 +264,7 @@ export class StartMap {
         const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
         const moments = domain?.moments.map((one) => one.moment) ?? [];
         const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
-        this.say(texts.start.card(this.chosen, station?.name ?? '', age, moments, strongest));
+        this.say(mapTexts.card(this.chosen, station?.name ?? '', age, moments, strongest));
     }
     private say(text: string): void {
         this.said = text;
@@ -272,8 +273,8 @@ export class StartMap {
     private putCard(): void {
         const card = [
             this.said,
-            this.data.unpictured > 0 ? texts.start.unpictured(this.data.unpictured) : '',
-            performance.now() - this.lacksSince >= toldAfterMs ? texts.start.lacksEcho : '',
+            this.data.unpictured > 0 ? mapTexts.unpictured(this.data.unpictured) : '',
+            performance.now() - this.lacksSince >= toldAfterMs ? mapTexts.lacksEcho : '',
         ]
             .filter(Boolean)
             .join(' ');
@@ -282,7 +283,7 @@ export class StartMap {
 
     async open(domain: string | null): Promise<void> {
         if (domain === null) return;
-        if (!this.app.domains.some((one) => one.domain === domain)) return this.say(texts.start.noGridsOf(domain));
+        if (!this.app.domains.some((one) => one.domain === domain)) return this.say(mapTexts.noGridsOf(domain));
         await this.app.enter(domain);
     }
 
@@ -315,7 +316,7 @@ export class StartMap {
         return box ? this.data.stations.filter((one) => one.hasGrids && isInBox(one, box)) : [];
     }
     private tellBox(): void {
-        this.say(texts.start.boxed(this.stationsInBox().map((one) => one.icao)));
+        this.say(mapTexts.boxed(this.stationsInBox().map((one) => one.icao)));
     }
     // Opens the region of the box, or the station if the box holds just one. If the box holds no station, tells the
     // user.
@@ -323,9 +324,9 @@ export class StartMap {
         const box = this.boxDegrees();
         const inside = this.stationsInBox();
         this.dropBox();
-        if (!box || inside.length === 0) return this.say(texts.start.boxed([]));
+        if (!box || inside.length === 0) return this.say(mapTexts.boxed([]));
         if (inside.length === 1) return this.open(inside[0]!.icao);
-        this.say(texts.start.merging(inside.map((one) => one.icao)));
+        this.say(mapTexts.merging(inside.map((one) => one.icao)));
         const domain = regionName(box);
         try {
             await this.app.findRegion(domain);
@@ -424,7 +425,7 @@ export class StartMap {
             .filter(({ domain }) => domain.domain.toLowerCase().includes(word.trim().toLowerCase()))
             .map(({ domain }) => ({
                 domain: domain.domain,
-                name: texts.start.mosaic,
+                name: mapTexts.mosaic,
                 note: domain.moments[0] ? texts.start.age(domain.moments[0].age_s) : '',
                 isThere: true,
             }));

@@ -1,0 +1,41 @@
+// Adds the parts of the page that no picture needs: settings, tools, readings, and the panel of layers. open_panels.ts
+// loads them.
+
+import { App } from '../app';
+import { Drawing } from '../drawing';
+import { FactsOfShown } from '../facts_of_shown';
+import { Keys } from '../keys';
+import { Pointers } from '../pointers';
+import { TableEditing } from '../table_editing';
+import { addEditor } from './edit_colors';
+import { Hover } from './hover';
+import { LayersPanel } from './layers_panel';
+import { addLook } from './look';
+import { Reader } from './reader';
+import { addShare } from './share';
+import { ToolsPanel } from './tools';
+import { addUnits } from './unit_choice';
+
+export interface PageParts {
+    app: App;
+    drawing: Drawing;
+    facts: FactsOfShown;
+    keys: Keys;
+    pointers: Pointers;
+}
+
+export function begin({ app, drawing, facts, keys, pointers }: PageParts): void {
+    const hover = new Hover(app, drawing, facts);
+    const reader = new Reader(app, drawing, hover);
+    const editing = new TableEditing(app);
+    addLook(app, drawing, keys, editing);
+    addUnits(app);
+    addShare(app, drawing, editing, facts);
+    reader.begin(keys);
+    hover.begin();
+    new ToolsPanel(app, drawing, pointers, facts).begin(keys);
+    new LayersPanel(app, drawing, pointers).begin(keys);
+    addEditor(app, drawing, editing, keys);
+    keys.add('Escape', () => pointers.use(null));
+    pointers.setUsual(reader);
+}
