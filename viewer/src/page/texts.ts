@@ -70,6 +70,8 @@ export const texts = {
     domain: 'Domain',
     moment: 'Moment',
     dealiased: 'Dealiased',
+    derived: 'Derived',
+    derivedTold: 'Moments computed from the measured ones',
     noDealiased: (moment: string) =>
         `The server has no grids of ${moment} here. The layer "Sweep in its place" can show dealiased sweeps.`,
     time: 'Time',

@@ -1,44 +1,24 @@
-// Fills the head of the page: domain, moments, title and messages.
+// Fills the head of the page: domains, title and messages.
 
 import { toleratedFutureMs } from '../../time/timeline';
 import { Region, isRegion } from '../../wire/api';
-import { derivedOf, isMoment, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
+import { isMoment, momentFacts, titleOf } from '../../wire/moments';
 import { echoLayers, sweepMoment } from '../../scene/layers';
 import { App } from '../app';
 import { Drawing } from '../drawing';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
 import { texts } from '../texts';
+import { addMoments } from './moment_choice';
 
-function putChoices(app: App): void {
-    const { state, domain } = app;
+function putDomains(app: App): void {
+    const { state } = app;
     putOptions(
         element<HTMLSelectElement>('domain'),
         app.domains.map((one) => one.domain),
         state.domain,
         (name) => (isRegion(name) ? texts.start.region : name),
     );
-    element('moments').replaceChildren(
-        ...momentsInOrder((domain?.moments ?? []).map(({ moment }) => moment)).map(({ moment, isThere }) => {
-            const isDealiased = moment === derivedOf(measuredOf(moment));
-            const choice = button(`moment-${moment}`, isDealiased ? texts.dealiased : moment, () =>
-                isThere ? void app.choose(state.domain, moment) : app.say(texts.noDealiased(titleOf(moment))),
-            );
-            choice.title = isThere ? titleOf(moment) : texts.noDealiased(titleOf(moment));
-            choice.setAttribute('aria-disabled', String(!isThere));
-            return choice;
-        }),
-    );
-    putMoment(app);
-}
-
-// Highlights the button of the drawn moment, and marks the button of a chosen moment as busy until the moment is drawn.
-function putMoment({ state, shown, domain }: App): void {
-    const drawn = shown?.domain === state.domain ? shown.moment : '';
-    for (const { moment } of momentsInOrder((domain?.moments ?? []).map((one) => one.moment))) {
-        press(`moment-${moment}`, moment === drawn);
-        element(`moment-${moment}`).setAttribute('aria-busy', String(moment === state.moment && moment !== drawn));
-    }
 }
 
 const newsS = 48 * 3600; // older data have no age in the title, because their date is enough
@@ -129,7 +109,8 @@ export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): voi
     element('title').after(make('p', { id: 'layers-told', hidden: '' }), make('p', { id: 'sites-told', hidden: '' }));
     element('notice').after(button('reload', texts.notice.reload, () => location.reload()));
     element('reload').hidden = true;
-    app.on('choices', () => putChoices(app));
+    addMoments(app);
+    app.on('choices', () => putDomains(app));
     app.on(['notice', 'time', 'shown', 'map'], () => putNotice(app));
     const askSites = () =>
         void facts.askSites().then(
@@ -145,7 +126,6 @@ export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): voi
     app.on(['view', 'shown', 'choices', 'units'], () => putLayers(drawing));
     drawing.layers.layerCame.push(() => putLayers(drawing));
     app.on('shown', () => {
-        putMoment(app);
         putSites(app, facts);
         askSites();
     });
