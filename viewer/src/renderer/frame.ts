@@ -1,0 +1,19 @@
+// Declares what the renderer draws in one picture.
+
+import { ViewGeometry } from '../camera/geometry';
+import { ColorTable } from '../wire/color_tables';
+import { DrawnLayers } from './layer_passes';
+
+export interface Frame {
+    geometry: ViewGeometry;
+    slices: number;
+    grain: number; // the picture is enlarged this many times along each side
+    isNearest: boolean; // cells are not interpolated
+    opacity: number;
+    table: ColorTable;
+    leastValue: number; // values below it are not shown
+    hasVolume: boolean;
+    hasGround: boolean;
+    layers?: DrawnLayers | null;
+    keepsExposure?: boolean; // the exposure of the last picture is used again
+}
