@@ -330,7 +330,7 @@ test.describe('volumes that are listed but no longer exist', () => {
     // Wait for the answer to a later request, which comes after the failed answer.
     await page.evaluate(() => fetch('../api/v1/stations').then((answer) => answer.text()));
     await viewer.frames();
-    expect(await viewer.text('state')).not.toContain('no picture');
+    expect(await viewer.text('state')).not.toContain('Choose another time');
   });
 
   // 2026-11-28: the timeline kept such volumes, and a loop waited for them. A moment that came later than the first

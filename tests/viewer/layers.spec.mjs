@@ -147,10 +147,10 @@ test.describe('layers', { tag: '@full' }, () => {
     const drawn = { width: w, height: h, at: (x, y) => plot.at(x + 34, y + 8) };
     expectSame('section', compared(drawn, await above.framed(['--product', 'section', '--section', line], w, h)), 0.01);
     const reading = viewer.byId('section-reading');
-    await expect(reading).toHaveText(/^Greatest [\d.]+ dBZ, [\d.]+ km from A, [\d.]+ km above sea level$/);
+    await expect(reading).toHaveText(/^Maximum [\d.]+ dBZ, [\d.]+ km from A, [\d.]+ km above sea level$/);
     await viewer.byId('section-canvas').focus();
     await viewer.key('ArrowLeft');
-    await expect(reading, 'an arrow reads the plot').not.toHaveText(/^Greatest/);
+    await expect(reading, 'an arrow reads the plot').not.toHaveText(/^Maximum/);
   });
 
   test('light agrees with the slicer, with the sun beside the camera', async ({ viewer, server, above, strong }) => {

@@ -217,7 +217,7 @@ test.describe('a grid in parts', { tag: '@full' }, () => {
       // Move the view after the grid was evicted.
       await page.route(/bricks=/, fails(410, 'the grid was evicted from the cache'));
       await viewer.turnTo(view(other));
-      await viewer.until(() => document.documentElement.dataset.state.includes('no picture'));
+      await viewer.until(() => document.documentElement.dataset.state.includes('Choose another time'));
     });
   });
 });

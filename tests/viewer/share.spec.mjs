@@ -80,7 +80,7 @@ test.describe('sharing', { tag: '@full' }, () => {
     expect(readFileSync(drawn).length, 'bytes of the picture that the command draws').toBeGreaterThan(10000);
     expect(command, 'the command names the colors').toContain('--colors ');
     expect(command, 'the command names the size of the page').toContain(`--width ${width} --height ${height}`);
-    // 2026-11-28: the button "Raw volume" gave the file another name than the command.
+    // 2026-11-28: the button of the raw volume gave the file another name than the command.
     const taken = await viewer.takenBy('raw');
     const file = await fetch(taken.href, { method: 'HEAD' });
     expect(file.status).toBe(200);

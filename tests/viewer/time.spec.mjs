@@ -78,7 +78,7 @@ test('frames between volumes are made, and the title says so', async ({ viewer, 
   await viewer.press('later');
   const title = viewer.byId('title');
   // Wait longer, because the server makes the frame first.
-  await expect(title).toContainText('made between volumes', { timeout: 60_000 });
+  await expect(title).toContainText('interpolated, not observed', { timeout: 60_000 });
   await expect(title).toContainText(':00 UTC');
   expect(await viewer.told('between')).toBe('60');
   // 2026-11-28: the page said that there was no volume of a time that has one.

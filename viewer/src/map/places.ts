@@ -6,7 +6,8 @@ import { Place, geodesic } from '../earth/projection';
 export interface StationPlace extends Place {
     icao: string;
     name: string; // name of the town, with its state
-    ageS: number | null; // age of the newest grid, else of the newest volume; null without both
+    newest: string | null; // time of the newest grid, else of the newest volume; null without both
+    ageS: number | null; // its age
     hasGrids: boolean;
     moments: string[];
     newestGrid: string | null; // time of the newest grid
@@ -23,6 +24,7 @@ export function stationPlaces(stations: Station[]): StationPlace[] {
                 name: [one.name, one.state].filter(Boolean).join(', '),
                 latitudeDeg,
                 longitudeDeg,
+                newest: (one.newest_grid ?? one.newest_volume)?.time ?? null,
                 ageS: (one.newest_grid ?? one.newest_volume)?.age_s ?? null,
                 hasGrids: one.moments.length > 0,
                 moments: one.moments,

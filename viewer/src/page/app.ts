@@ -107,7 +107,11 @@ export class App {
             return this.say(texts.notice.noServer);
         }
         const isGone = error instanceof ApiError && (error.status === 404 || error.status === 410);
-        this.say(isGone ? texts.notFound : texts.failed(error instanceof Error ? error.message : String(error)));
+        this.say(
+            isGone
+                ? texts.notFound(this.state.domain, this.state.moment)
+                : texts.failed(error instanceof Error ? error.message : String(error)),
+        );
     }
 
     // -- the view

@@ -10,6 +10,7 @@ import { Frame } from '../renderer/frame';
 import { Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
+import { Mark } from '../scene/ground_lines';
 import { App, Shown } from './app';
 import { ColorBar } from './color_bar';
 import { element, pixelRatio, textScale } from './dom';
@@ -109,6 +110,10 @@ export class Drawing {
 
     addOverlay(overlay: Overlay): void {
         this.overlays.push(overlay);
+    }
+
+    get cities(): Mark[] {
+        return this.ground.marks.filter(({ kind }) => kind === 'city');
     }
 
     // Returns the camera of the picture; null while nothing is shown. A pixel of the picture is `grain` pixels of the
@@ -246,11 +251,11 @@ export class Drawing {
         const { detail } = this.streaming;
         const ofLayers = this.windows.coarsest(shown.loaded);
         const said = [
-            texts.drawn(ms, rung, fetches),
             detail && texts.detail(detail),
             ofLayers !== (detail?.coarsest ?? 0) && texts.detailOfLayers(ofLayers),
         ];
         app.say(said.filter(Boolean).join(' · '), false);
+        element('drawn-how').textContent = texts.drawn(ms, rung, fetches);
         const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
         element('held').textContent = held;
         this.tell({ fetches, missing: detail?.missing ?? 0, held });

@@ -7,6 +7,14 @@ import { Drawing } from './drawing';
 const keyStep = 20; // an arrow acts like a drag by this many pixels
 const farther = 2; // factor for keys that move the scene
 
+// Returns true if the control with the focus has no use for a key.
+function isUnused({ target, key }: KeyboardEvent): boolean {
+    const isControl =
+        target instanceof HTMLButtonElement ||
+        (target instanceof HTMLInputElement && ['checkbox', 'range'].includes(target.type));
+    return isControl && (key === 'Escape' || (key.length === 1 && key !== ' '));
+}
+
 export class Keys {
     private actions = new Map<string, () => void>();
     private early: KeyboardEvent[] | null = []; // keys that came before their actions; null once all actions are there
@@ -49,11 +57,13 @@ export class Keys {
         for (const event of early) this.press(event);
     }
 
-    // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click.
-    // Controls get their own keys, so that a user can type.
+    // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click. Buttons,
+    // checkboxes and sliders keep only the keys that they use. Other controls keep all keys, so that a user can type.
     begin(): void {
         document.addEventListener('keydown', (event) => {
-            if (event.target === this.drawing.picture || event.target === document.body) this.press(event);
+            const { target } = event;
+            const isFree = target === this.drawing.picture || target === document.body;
+            if (isFree || (!this.app.isOnMap && isUnused(event))) this.press(event);
         });
     }
 

@@ -66,7 +66,7 @@ export class MeasureTool implements Tool {
                 panelTexts.tools.distance(
                     distanceText(distanceM, units),
                     Math.round(azimuthDeg) % 360,
-                    `${apartM < 0 ? '−' : '+'}${heightText(Math.abs(apartM), units)}`,
+                    panelTexts.tools.higher(apartM, heightText(Math.abs(apartM), units)),
                 ),
             );
         } else {

@@ -90,7 +90,7 @@ export class Showing {
         const { app } = this;
         const time = app.timeline.now;
         app.tell('time');
-        if (time === undefined) return app.say(texts.notFound);
+        if (time === undefined) return app.say(texts.notFound(app.state.domain, app.state.moment));
         const wanted = nearest ?? time;
         const [turn, isLeft] = [++this.turn, this.whetherLeft()];
         const isLate = () => turn !== this.turn || app.timeline.now !== time || isLeft();

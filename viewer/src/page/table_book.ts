@@ -10,10 +10,9 @@ import { Tables } from '../wire/api';
 import { tablesOf } from '../wire/moments';
 import { texts } from './texts';
 
-// The names of the server's tables for people with any kind of color vision begin with this
-// (render/color/built_in_tables.h).
-const safePrefix = 'safe-';
-export const tableTitle = (name: string): string => (name.startsWith(safePrefix) ? texts.safeTable(name) : name);
+// Returns the title of a table of the server, or the name of another table.
+export const tableTitle = (name: string): string =>
+    Object.entries(texts.tables).find(([begin]) => name.startsWith(begin))?.[1] ?? name;
 
 export class TableBook {
     readonly usual: UsualOpacity;

@@ -5,20 +5,20 @@ import { texts } from './texts';
 
 test('the page tells how far the volumes of a region are from the instant', () => {
     const { ofVolumes, sitesAt } = texts.start;
-    assert.equal(ofVolumes([-180, 42]), 'from volumes 3 min before and 42 s after');
-    assert.equal(ofVolumes([-400]), 'as it was 7 min before');
-    assert.equal(ofVolumes([0]), 'as it was');
+    assert.equal(ofVolumes([-180, 42]), 'moved from volumes 3 min earlier and 42 s later');
+    assert.equal(ofVolumes([-400]), 'not moved: observed 7 min earlier');
+    assert.equal(ofVolumes([0]), 'not moved');
     assert.equal(
         sitesAt([
             { site: 'KCCX', middlesS: [-60, 240] },
             { site: 'KDIX', middlesS: [300] },
         ]),
-        'KCCX from volumes 60 s before and 4 min after; KDIX as it was 5 min after',
+        'KCCX moved from volumes 60 s earlier and 4 min later; KDIX not moved: observed 5 min later',
     );
     const many = ['KAAA', 'KBBB', 'KCCC'].map((site, i) => ({ site, middlesS: [-100 * i, 200] }));
     assert.equal(
         sitesAt([...many, { site: 'KDDD', middlesS: [-600] }]),
-        '3 sites from volumes at most 4 min away; as they were: KDDD 10 min before',
+        '3 sites moved from volumes at most 4 min away; not moved: KDDD observed 10 min earlier',
     );
 });
 
@@ -48,8 +48,13 @@ test('the page does not say that a grid is loading if the grid is gone (2026-11-
 });
 
 test('data of a radar whose clock is ahead are in the future, and not new (2026-11-28: they were "0 min ago")', () => {
-    assert.equal(texts.start.age(-601), 'in the future');
-    assert.equal(texts.start.age(-599), '0 min ago');
+    assert.equal(texts.start.age(-601, '2026-11-28T12:00:00Z'), 'in the future');
+    assert.equal(texts.start.age(-599, '2026-11-28T12:00:00Z'), '0 min ago');
+});
+
+test('old data have a date, and new data an age (2026-11-28: "28 years ago")', () => {
+    assert.equal(texts.start.age(47 * 3600, '1999-05-03T23:56:21Z'), '47 h ago');
+    assert.equal(texts.start.age(49 * 3600, '1999-05-03T23:56:21Z'), '1999-05-03 23:56 UTC');
 });
 
 test('the page tells how much echo a grid or a sweep lacks', () => {

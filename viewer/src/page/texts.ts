@@ -5,34 +5,37 @@ import { isAhead } from '../time/timeline';
 import { CellState, LeftOutEcho } from '../wire/packed_grid';
 
 function span(seconds: number): string {
-    const [minutes, hours, days] = [seconds / 60, seconds / 3600, seconds / 86400];
-    if (minutes < 90) return `${Math.max(0, Math.round(minutes))} min`;
-    if (hours < 48) return `${Math.round(hours)} h`;
-    return days < 730 ? `${Math.round(days)} days` : `${Math.round(days / 365.25)} years`;
+    const [minutes, hours] = [seconds / 60, seconds / 3600];
+    return minutes < 90 ? `${Math.max(0, Math.round(minutes))} min` : `${Math.round(hours)} h`;
 }
-export const age = (seconds: number): string => (isAhead(seconds) ? 'in the future' : `${span(seconds)} ago`);
+export const newsS = 48 * 3600; // a date tells older data better than an age
+// Tells the age of data, or the date of old data. `time` is in ISO form.
+export function age(seconds: number, time: string): string {
+    if (isAhead(seconds)) return 'in the future';
+    return seconds < newsS ? `${span(seconds)} ago` : `${time.slice(0, 16).replace('T', ' ')} UTC`;
+}
 
 // Tells how long before or after an instant the volumes of a site were.
 function ofVolumes(middlesS: number[]): string {
     const away = (seconds: number) =>
         Math.abs(seconds) < 90 ? `${Math.round(Math.abs(seconds))} s` : `${Math.round(Math.abs(seconds) / 60)} min`;
-    const told = middlesS.map((seconds) => (seconds < 0 ? `${away(seconds)} before` : `${away(seconds)} after`));
-    if (middlesS.length > 1) return `from volumes ${told.join(' and ')}`;
-    return Math.abs(middlesS[0] ?? 0) < 1 ? 'as it was' : `as it was ${told[0]}`;
+    const told = middlesS.map((seconds) => (seconds < 0 ? `${away(seconds)} earlier` : `${away(seconds)} later`));
+    if (middlesS.length > 1) return `moved from volumes ${told.join(' and ')}`;
+    return Math.abs(middlesS[0] ?? 0) < 1 ? 'not moved' : `not moved: observed ${told[0]}`;
 }
 const mostSitesTold = 3;
 function sitesAt(sites: { site: string; middlesS: number[] }[]): string {
     const told = (some: typeof sites) => some.map(({ site, middlesS }) => `${site} ${ofVolumes(middlesS)}`).join('; ');
     if (sites.length <= mostSitesTold) return told(sites);
     const alone = sites.filter(({ middlesS }) => middlesS.length === 1);
-    const asTheyWere = told(alone)
-        .replace(/ as it was/g, '')
+    const notMoved = told(alone)
+        .replace(/ not moved:?/g, '')
         .replace(/;/g, ',');
     const moved = sites.filter(({ middlesS }) => middlesS.length > 1);
     const farthest = Math.max(...moved.flatMap(({ middlesS }) => middlesS.map(Math.abs)));
     const all =
-        moved.length > 0 ? `${moved.length} sites from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
-    return [all, alone.length > 0 ? `as they were: ${asTheyWere}` : ''].filter(Boolean).join('; ');
+        moved.length > 0 ? `${moved.length} sites moved from volumes at most ${Math.ceil(farthest / 60)} min away` : '';
+    return [all, alone.length > 0 ? `not moved: ${notMoved}` : ''].filter(Boolean).join('; ');
 }
 
 // Names the sites that are left out, grouped by the server's reason. A reason begins with "it" or "its".
@@ -50,10 +53,10 @@ export const greatestOf = (halvings: number): string => `greatest of ${2 ** halv
 export const texts = {
     title: 'stormcellar',
     loading: 'Loading',
-    drawing: 'Drawing',
     noGrids: 'There are no grids yet. The page shows the first one as soon as it is there.',
     noWebgl: 'This browser has no WebGL 2, which the view needs.',
-    notFound: 'There is no picture of this domain, moment and time.',
+    notFound: (domain: string, moment: string) =>
+        `No ${moment} of ${domain} for this time. Choose another time or radar.`,
     notice: {
         noServer: 'The server does not answer. Trying again …',
         noGraphics: 'The graphics processor was lost: nothing is drawn. If it does not come back, reload the page.',
@@ -67,13 +70,12 @@ export const texts = {
             `No volume at ${new Date(time).toISOString().slice(0, 19).replace('T', ' ')} UTC. This is the nearest one.`,
     },
     failed: (what: string) => `This did not work: ${what}`,
-    domain: 'Domain',
-    moment: 'Moment',
     dealiased: 'Dealiased',
     derived: 'Derived',
+    velocitySigns: 'negative toward the radar, positive away from it',
     derivedTold: 'Moments computed from the measured ones',
     noDealiased: (moment: string) =>
-        `The server has no grids of ${moment} here. The layer "Sweep in its place" can show dealiased sweeps.`,
+        `The server has no grids of ${moment} here. The layer "Radar tilt" can show dealiased sweeps.`,
     time: 'Time',
     latest: 'Newest',
     live: 'Live',
@@ -86,12 +88,13 @@ export const texts = {
     loopFrom: 'Loop from here',
     loopTo: 'Loop to here',
     loopAll: 'Loop over all',
-    between: 'In between',
-    betweenOff: 'none',
-    betweenEvery: (seconds: number) => (seconds < 60 ? `every ${seconds} s` : `every ${seconds / 60} min`),
-    isBetween: 'made between volumes',
-    waiting: (time: string) => `Waiting for ${time}`,
-    safeTable: (name: string) => `${name} (for every color vision)`,
+    between: 'Smooth motion',
+    betweenOff: 'off',
+    betweenEvery: (seconds: number) => `${seconds < 60 ? `${seconds} s` : `${seconds / 60} min`} (interpolated)`,
+    isBetween: 'interpolated, not observed',
+    waiting: (time: string) => `Loading ${time.slice(11, 19)} UTC`,
+    // Titles of the server's tables by the beginnings of their names.
+    tables: { 'smooth-clear-air': 'Clear air', 'smooth-': 'Smooth', 'nws-': 'NWS', 'safe-': 'Color-blind safe' },
     northUp: 'North up',
     notSeen: 'not seen',
     noEcho: 'no echo',
@@ -100,11 +103,11 @@ export const texts = {
     ambiguousTold: 'echo whose velocity cannot be dealiased for sure',
     legend: {
         name: 'What the shades mean',
-        aloft: 'seen only > 3 km',
+        aloft: 'lowest beam above 3 km',
         heights: (times: number) => `heights\u00a0×\u00a0${times}`,
     },
     partial: 'Partial volume',
-    held: (bytes: number, most: number) => `Grids take ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
+    held: (bytes: number, most: number) => `Memory: ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
     surfaceLeftOut: 'not shown: this grid is too large for the surface of another moment',
     detailOfLayers: (halvings: number) => (halvings > 0 ? `layers: ${greatestOf(halvings)}` : ''),
     detail: ({ coarsest, missing, isGone }: { coarsest: number; missing: number; isGone: boolean }) => {
@@ -112,7 +115,7 @@ export const texts = {
         return missing > 0 ? `coarse: ${cells}, finer ones are ${isGone ? 'gone' : 'loading'}` : cells;
     },
     drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
-        `${ms} ms, dE ${how.dE} (${how.name}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`})`,
+        `Drawn in ${ms} ms: ${how.name}, color error ${how.dE}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`}`,
     layers: {
         title: 'Layers',
         maximumTold: 'column maximum',
@@ -148,7 +151,7 @@ export const texts = {
     },
     start: {
         toMap: 'Map',
-        region: 'Region',
+        region: 'Merged area',
         ofVolumes,
         sitesAt,
         leftOut,

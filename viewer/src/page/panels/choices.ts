@@ -8,7 +8,7 @@ import { App } from '../app';
 import { Drawing } from '../drawing';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
-import { texts } from '../texts';
+import { newsS, texts } from '../texts';
 import { addMoments } from './moment_choice';
 
 function putDomains(app: App): void {
@@ -21,7 +21,6 @@ function putDomains(app: App): void {
     );
 }
 
-const newsS = 48 * 3600; // older data have no age in the title, because their date is enough
 const liveS = 30 * 60; // no radar takes so long from one volume to the next
 const againAfterMs = 20_000; // between updates of ages
 
@@ -42,7 +41,7 @@ function putTitle(app: App): void {
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [titleOf(moment), grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
     // Put the age into a span of its own, which a saved picture leaves out.
-    const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS)}` : '');
+    const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS, '')}` : '');
     element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }

@@ -95,7 +95,11 @@ export class Hover {
                       layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits,
                   )
                 : stateText(state ?? CellState.notSeen);
-        if (layer === 'ground') return [state === CellState.value ? words.hidden(told) : words.ground(told), ...from];
+        if (layer === 'ground')
+            return [
+                state === CellState.value ? words.hidden(told, this.isBelowShown(value)) : words.ground(told),
+                ...from,
+            ];
         // Give no height for range folded air, because the ray may cross such air at many heights.
         if (layer === 'volume' && state !== CellState.value) return [told, ...from];
         // Give the height of a column maximum only if there is a value and the cells are not halved.
@@ -106,6 +110,12 @@ export class Hover {
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];
         return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
+    }
+
+    // Returns true if a value is below the shown range, rather than too transparent to see.
+    private isBelowShown(value: number): boolean {
+        const { state, shownTable: table } = this.app;
+        return value < Math.max(state.least ?? -Infinity, table?.bar_begin ?? -Infinity);
     }
 
     // Returns the time of day. It is not an age, because the text may stay on the page.

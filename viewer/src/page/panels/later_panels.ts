@@ -2,9 +2,11 @@
 // loads them.
 
 import { App } from '../app';
+import { element } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { Keys } from '../keys';
+import { panelTexts } from '../later_texts';
 import { Pointers } from '../pointers';
 import { TableEditing } from '../table_editing';
 import { addEditor } from './edit_colors';
@@ -37,5 +39,6 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     new LayersPanel(app, drawing, pointers).begin(keys);
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
+    for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;
     pointers.setUsual(reader);
 }

@@ -28,11 +28,12 @@ function putLook(app: App): void {
         least.value = String(state.least ?? table.bar_begin);
     }
     const hidden = state.least === null ? '' : valueText(state.least, table?.unit ?? '', state.units);
-    element('least-value').textContent = hidden;
+    element('least-value').textContent = hidden || panelTexts.nothingHidden;
     element('least').setAttribute('aria-valuetext', hidden || panelTexts.nothingHidden);
     element<HTMLInputElement>('opacity').value = String(Math.log2(state.opacity));
     element('opacity').setAttribute('aria-valuetext', String(state.opacity));
     element<HTMLInputElement>('exaggeration').value = String(state.exaggeration);
+    element('exaggeration-value').textContent = panelTexts.times(state.exaggeration);
     press('perspective', state.camera.fieldOfViewDeg > 0);
 }
 

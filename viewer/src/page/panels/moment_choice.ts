@@ -1,7 +1,7 @@
 // Adds a button for each moment of the domain. Moments that the server computes from several moments or sweeps are in a
 // list of their own, because the head of the page has no room for all.
 
-import { derivedOf, isMoment, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
+import { derivedOf, isMoment, isVelocity, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
 import { App } from '../app';
 import { button, element, leaveByEscape, make, press } from '../dom';
 import { texts } from '../texts';
@@ -27,6 +27,10 @@ function openList(isOpen: boolean): void {
     opener.setAttribute('aria-expanded', String(isOpen));
 }
 
+// Names a moment, and tells what the signs of velocities mean.
+const told = (moment: string): string =>
+    isVelocity(moment) ? `${titleOf(moment)}: ${texts.velocitySigns}` : titleOf(moment);
+
 function momentButton(app: App, { moment, isThere }: Choice): HTMLButtonElement {
     const isDealiased = moment === derivedOf(measuredOf(moment));
     const made = button(`moment-${moment}`, isDealiased ? texts.dealiased : moment, () => {
@@ -34,7 +38,7 @@ function momentButton(app: App, { moment, isThere }: Choice): HTMLButtonElement 
         if (isThere) void app.choose(app.state.domain, moment);
         else app.say(texts.noDealiased(titleOf(moment)));
     });
-    made.title = isThere ? titleOf(moment) : texts.noDealiased(titleOf(moment));
+    made.title = isThere ? told(moment) : texts.noDealiased(titleOf(moment));
     made.setAttribute('aria-disabled', String(!isThere));
     if (isListed(moment)) made.append(make('span', {}, titleOf(moment)));
     return made;

@@ -2,8 +2,10 @@
 
 import { ViewGeometry } from '../../camera/geometry';
 import { shades } from '../../renderer/shades';
-import { Plane, planeOf } from '../../earth/projection';
-import { Units, heightNumber, heightText, valueText } from '../../tables/units';
+import { nearestTo } from '../../fields/beam_reading';
+import { legOf } from '../../earth/measure';
+import { Place, Plane, planeOf } from '../../earth/projection';
+import { Units, distanceText, heightNumber, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App, Shown } from '../app';
 import { button, element, labeledButton, leaveByEscape, make, paragraph, textScale } from '../dom';
@@ -58,6 +60,14 @@ function putColumn(body: HTMLElement, app: App, reading: ColumnReading): void {
                 : stateText(level.state);
     }
     body.append(table);
+}
+
+// Returns a table of keys and what they do.
+function keyTable(title: string, rows: readonly (readonly [string, string])[]): HTMLTableElement {
+    const table = make('table', {}, make('caption', {}, title));
+    for (const [key, told] of rows)
+        table.append(make('tr', {}, make('th', { scope: 'row' }, make('kbd', {}, key)), make('td', {}, told)));
+    return table;
 }
 
 export class Reader implements Tool {
@@ -163,11 +173,14 @@ export class Reader implements Tool {
         const column = columnAt(grid, ...at);
         const place = planeOf(grid).toPlace(this.at);
         const title = make('h2', {}, panelTexts.place(place.latitudeDeg, place.longitudeDeg));
+        const near = this.nearestCity(place);
         const body = make('div');
         // Tell the reading of the click only while the same grid is shown. Read the column in each new grid.
         const { picked } = this;
         const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
         if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());
+        const from = said.length === 0 ? this.fromRadar(place) : '';
+        if (near || from) body.append(paragraph([near, from].filter(Boolean).join(', ')));
         if (said.length > 0) body.append(...said.map(paragraph), paragraph(panelTexts.column));
         if (!column) body.append(paragraph(panelTexts.hover.outside));
         if (column) {
@@ -183,10 +196,35 @@ export class Reader implements Tool {
         this.drawing.drawMarks();
     }
 
+    // Tells distance and direction from the nearest city on the map; an empty text without one.
+    private nearestCity(place: Place): string {
+        const { shown, state } = this.app;
+        if (!shown) return '';
+        const plane = planeOf(shown.loaded.grid);
+        const ways = this.drawing.cities.map(({ at, text }) => ({ text, ...legOf(plane.toPlace(at), place) }));
+        const nearest = ways.sort((a, b) => a.distanceM - b.distanceM)[0];
+        if (!nearest) return '';
+        return panelTexts.near(distanceText(nearest.distanceM, state.units), nearest.azimuthDeg, nearest.text);
+    }
+
+    // Tells distance and direction from the nearest radar.
+    private fromRadar(place: Place): string {
+        const { shown, state } = this.app;
+        const nearest = nearestTo(shown?.loaded.grid.sites ?? [], place);
+        if (!nearest) return '';
+        const { distanceM, azimuth } = nearest.way;
+        return panelTexts.hover.from(
+            distanceText(distanceM, state.units),
+            (azimuth * 180) / Math.PI,
+            nearest.site.icao,
+        );
+    }
+
     private showHelp(): void {
         this.clear();
         const box = element('reading');
-        box.replaceChildren(this.close, ...panelTexts.helpText.map(paragraph));
+        const groups = panelTexts.keys.map(([title, rows]) => keyTable(title, rows));
+        box.replaceChildren(this.close, make('h2', {}, panelTexts.help), make('div', { class: 'keys' }, ...groups));
         box.hidden = false;
     }
 }

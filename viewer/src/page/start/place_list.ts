@@ -1,6 +1,6 @@
 // Shows the list beside the start map: domains, and the stations that a search finds.
 
-import { Found } from '../../map/places';
+import { Found, StationPlace } from '../../map/places';
 import { element, make } from '../dom';
 import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
@@ -12,8 +12,13 @@ export interface ListedPlace {
     isThere: boolean; // the domain has grids
 }
 
+// Tells the age of the newest data of a station; null if it has none.
+export function agedText({ ageS, newest }: StationPlace): string | null {
+    return ageS === null || newest === null ? null : texts.start.age(ageS, newest);
+}
+
 export function listedStation({ station, near, distanceM }: Found): ListedPlace {
-    const age = station.ageS === null ? mapTexts.nothing : texts.start.age(station.ageS);
+    const age = agedText(station) ?? mapTexts.nothing;
     return {
         domain: station.icao,
         name: station.name,

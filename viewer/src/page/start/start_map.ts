@@ -22,7 +22,7 @@ import { texts } from '../texts';
 import { BaseMap } from './base_map';
 import { MapPointers } from './map_pointers';
 import { Outline, StartScene, paint, pixelsOf } from './painter';
-import { PlaceList, ListedPlace, listedStation } from './place_list';
+import { PlaceList, ListedPlace, agedText, listedStation } from './place_list';
 import { StartData } from './start_data';
 import { Tiles } from './tiles';
 
@@ -261,10 +261,11 @@ export class StartMap {
         if (this.chosen === null || (!station && !domain)) return this.say('');
         const seen =
             domain && (this.data.mosaics.find((one) => one.domain.domain === this.chosen) ?? this.data.find(domain));
-        const age = station ? station.ageS : (domain?.moments[0]?.age_s ?? null);
+        const ofDomain = domain?.moments[0];
+        const told = station ? agedText(station) : ofDomain ? texts.start.age(ofDomain.age_s, ofDomain.newest) : null;
         const moments = domain?.moments.map((one) => one.moment) ?? [];
         const strongest = moments.includes('REF') ? (seen?.facts?.greatest ?? null) : null;
-        this.say(mapTexts.card(this.chosen, station?.name ?? '', age, moments, strongest));
+        this.say(mapTexts.card(this.chosen, station?.name ?? '', told, moments, strongest));
     }
     private say(text: string): void {
         this.said = text;
@@ -426,7 +427,7 @@ export class StartMap {
             .map(({ domain }) => ({
                 domain: domain.domain,
                 name: mapTexts.mosaic,
-                note: domain.moments[0] ? texts.start.age(domain.moments[0].age_s) : '',
+                note: domain.moments[0] ? texts.start.age(domain.moments[0].age_s, domain.moments[0].newest) : '',
                 isThere: true,
             }));
         this.list.put([...domains, ...search(this.data.stations, this.base.cities, word).map(listedStation)]);
