@@ -1,7 +1,7 @@
 // Gives each check of the viewer a data server with the volumes of the check's Playwright project, and a page. A check
 // fails if the page has an error that the check did not provoke.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -52,6 +52,14 @@ class Server {
   }
 }
 
+// Replaces the files of the page by those in a directory, so that changes of the page need no build of the server.
+const takePageFrom = (page, directory) =>
+  page.route(/\/view\/([\w.]*)(#|$)/, async (route) => {
+    const file = join(directory, basename(new URL(route.request().url()).pathname).replace('view', 'index.html'));
+    const response = await route.fetch();
+    await (existsSync(file) ? route.fulfill({ response, body: readFileSync(file) }) : route.fulfill({ response }));
+  });
+
 export const test = base.extend({
   // Paths of raw volumes. If there are none, the server gets a simulated volume.
   volumes: [[], { option: true, scope: 'worker' }],
@@ -73,6 +81,7 @@ export const test = base.extend({
   // Matches the errors of the page that a check provokes.
   provoked: [/(?!)/, { option: true }],
   viewer: async ({ page, address, provoked }, use) => {
+    if (process.env.STORMCELLAR_PAGE) await takePageFrom(page, process.env.STORMCELLAR_PAGE);
     const viewer = new ViewerPage(page, address);
     await use(viewer);
     expect(viewer.trouble.filter((line) => !provoked.test(line)), 'nothing of the page failed').toEqual([]);

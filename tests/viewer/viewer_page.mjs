@@ -24,12 +24,30 @@ export class ViewerPage {
     page.on('console', (message) => message.type() === 'error' && this.trouble.push(message.text()));
     page.on('request', (request) => this.requests.push(request.url()));
   }
-  // Counts the bytes that come over the network from now on, in `bytes`.
+  // Counts the bytes that come over the network from now on, in `bytes`. Notes when the first picture is drawn.
   async countBytes() {
     this.bytes = 0;
+    this.loads = new Map(); // id of a request, its time in ms and its bytes
     const session = await this.protocol();
-    session.on('Network.loadingFinished', ({ encodedDataLength }) => (this.bytes += encodedDataLength));
+    session.on('Network.requestWillBeSent', ({ requestId, wallTime }) =>
+      this.loads.set(requestId, { atMs: 1000 * wallTime, bytes: 0 }),
+    );
+    session.on('Network.loadingFinished', ({ requestId, encodedDataLength }) => {
+      this.bytes += encodedDataLength;
+      this.loads.get(requestId).bytes = encodedDataLength;
+    });
     await session.send('Network.enable');
+    await this.page.addInitScript(() =>
+      new MutationObserver(() => (window.drawnAtMs ??= Date.now())).observe(document, {
+        attributeFilter: ['data-drawn'],
+        subtree: true,
+      }),
+    );
+  }
+  // Returns the bytes of the requests that began before the first picture was drawn.
+  async bytesOfFirstPicture() {
+    const drawnAtMs = await this.page.evaluate(() => window.drawnAtMs);
+    return [...this.loads.values()].reduce((sum, { atMs, bytes }) => sum + (atMs < drawnAtMs ? bytes : 0), 0);
   }
   asked(part) {
     return this.requests.filter((url) => url.includes(part)).length;

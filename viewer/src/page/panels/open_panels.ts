@@ -6,6 +6,8 @@ import { laterProgram } from '../later_program';
 import { texts } from '../texts';
 import type { PageParts } from './later_panels';
 
+const afterPictureMs = 50;
+
 export function addPanels(parts: PageParts): void {
     const { app, drawing, keys } = parts;
     const settings = element('open');
@@ -41,5 +43,6 @@ export function addPanels(parts: PageParts): void {
             need();
         });
     keys.onEarly = need;
-    drawing.pictureFinished.push(need);
+    // Let the browser show the picture first.
+    drawing.pictureFinished.push(() => window.setTimeout(need, afterPictureMs));
 }
