@@ -11,6 +11,7 @@ namespace {
 constexpr double bar_text = 10;
 constexpr double row_text = 9.5;
 constexpr double swatch_side = 11;
+constexpr std::size_t most_rows_of_line = 8;
 
 // Returns the size of the letters, which is the same for all rows. If one row has no room, all rows
 // become smaller, down to three quarters.
@@ -150,7 +151,21 @@ void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& pane
 void lay_out_band(LabelBuilder& builder, const Legend& legend, const Rect& band, bool rows) {
     double baseline = band.y + builder.scaled(9);
     if (legend.table != nullptr) baseline = lay_out_lying_bar(builder, legend, band);
-    if (rows) lay_out_line(builder, legend, band, baseline + builder.scaled(18));
+    if (!rows) return;
+    if (legend.table == nullptr && legend.rows.size() > most_rows_of_line) {
+        // The rows take the place of the bar, too.
+        const auto middle =
+            legend.rows.begin() + static_cast<std::ptrdiff_t>((legend.rows.size() + 1) / 2);
+        Legend upper, lower;
+        upper.heading = legend.heading;
+        lower.notes = legend.notes;
+        upper.rows.assign(legend.rows.begin(), middle);
+        lower.rows.assign(middle, legend.rows.end());
+        lay_out_line(builder, upper, band, baseline);
+        lay_out_line(builder, lower, band, baseline + builder.scaled(18));
+        return;
+    }
+    lay_out_line(builder, legend, band, baseline + builder.scaled(18));
 }
 
 }  // namespace stormcellar::render

@@ -43,7 +43,16 @@ Status check_section(const Scene& scene) {
                        limits::section_km);
 }
 
+Status check_classes(const Scene& scene) {
+    const bool has_classes = level2::facts_of(scene.moment).is_categorical;
+    if (!has_classes || facts_of(scene.product).is_of_sweep) return {};
+    return fail(ErrorCode::bad_argument,
+                "{} has classes, which have no mean, so it is drawn as a ppi and not as {}",
+                level2::moment_name(scene.moment), product_name(scene.product));
+}
+
 Status check_colors(const Scene& scene) {
+    if (const Status fits = check_classes(scene); !fits) return fits;
     const auto only = facts_of(scene.product).only_moment;
     if (only && scene.moment != *only) {
         return fail(
@@ -71,14 +80,6 @@ Status check_glyphs(const Scene& scene) {
     if (!scene.glyphs || has_beam_glyphs(scene.moment)) return {};
     return fail(ErrorCode::bad_argument, "beam glyphs show velocities, not {}",
                 level2::moment_name(scene.moment));
-}
-
-Status check_classes(const Scene& scene) {
-    const bool has_classes = level2::facts_of(scene.moment).is_categorical;
-    if (!has_classes || facts_of(scene.product).is_of_sweep) return {};
-    return fail(ErrorCode::bad_argument,
-                "{} has classes, which have no mean, so it is drawn as a ppi and not as {}",
-                level2::moment_name(scene.moment), product_name(scene.product));
 }
 
 Status check_look_at(const Camera& camera) {
@@ -113,7 +114,7 @@ Status validate(const Scene& scene) {
     }
     const Eye eye = camera.eye.value_or(Eye{});
     const Eye look_at = camera.look_at.value_or(Eye{});
-    const std::array<Status, 27> checks = {
+    const std::array<Status, 26> checks = {
         check_range("width", scene.width, limits::side_px),
         check_range("height", scene.height, limits::side_px),
         check_range("tilt", camera.tilt_deg,
@@ -151,7 +152,6 @@ Status validate(const Scene& scene) {
         check_section(scene),
         check_glyphs(scene),
         check_colors(scene),
-        check_classes(scene),
     };
     for (const Status& check : checks) {
         if (!check) return check;

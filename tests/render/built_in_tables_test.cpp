@@ -73,10 +73,14 @@ TEST(BuiltInTables, HaveTheWeatherServicesColors) {
     EXPECT_EQ(color_of(height_colors(), -1), height_colors().stops.front().color);
 }
 
-TEST(BuiltInTables, EachMomentHasASmoothOne) {
+TEST(BuiltInTables, EachMomentButClassesHasASmoothOne) {
     for (const Moment moment : level2::all_moments) {
         const ColorTable& table = smooth_color_table(moment);
         EXPECT_EQ(table.unit, unit_of(moment)) << table.name;
+        if (level2::facts_of(moment).is_categorical) {
+            EXPECT_TRUE(is_stepped(table)) << table.name;
+            continue;
+        }
         EXPECT_TRUE(table.name.starts_with("smooth-")) << table.name;
         EXPECT_FALSE(is_stepped(table)) << table.name;
     }
