@@ -13,8 +13,8 @@ namespace stormcellar::render {
 
 // Lays out an upright bar at the right of a picture, with the rows of the legend below it.
 void lay_out_panel(LabelBuilder& builder, const Legend& legend, const Rect& panel);
-// Lays out a horizontal bar below a picture, and then the legend in one line. If `rows` is false,
-// there is only the bar.
+// Lays out a horizontal bar below a picture, and then the legend in one line, or in two if there is
+// no bar and more than eight rows. If `rows` is false, there is only the bar.
 void lay_out_band(LabelBuilder& builder, const Legend& legend, const Rect& band, bool rows = true);
 
 }  // namespace stormcellar::render

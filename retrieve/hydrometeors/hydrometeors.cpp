@@ -34,7 +34,8 @@ class VariablesOfSweep {
         : sweep_(volume.sweeps[sweep]), field_(field), echo_(echo), gates_(echo.count()) {
         take_means(field, &GateVariables::reflectivity_dbz);
         take_means(field_of_moment(Moment::zdr), &GateVariables::zdr_db);
-        visit_kind_features(volume, sweep, field, echo, QualityRule::dual,
+        GateField scratch;
+        visit_kind_features(volume, sweep, field, echo, QualityRule::dual, scratch,
                             [&](Feature feature, std::size_t radial, std::span<const float> of) {
                                 take_feature(feature, echo_.begin(radial), of);
                             });
@@ -65,12 +66,13 @@ class VariablesOfSweep {
     void take_means(const GateField& other, float GateVariables::*to) {
         if (other.is_empty()) return;
         const auto places = places_in(other);
-        visit_code_sums(other, gate_box(3, mean_length_m, other),
-                        [&](std::size_t radial, const std::uint32_t* sums) {
-                            visit_radial(radial, places, [&](std::size_t i, std::size_t place) {
-                                gates_[i].*to = other.value_of(BoxSum(sums[place]).mean());
-                            });
-                        });
+        BoxSums all_sums = BoxSums::of_codes(other, gate_box(3, mean_length_m, other));
+        for (std::size_t radial = 0; radial < other.radials; ++radial) {
+            const std::uint32_t* const sums = all_sums.next();
+            visit_radial(radial, places, [&](std::size_t i, std::size_t place) {
+                gates_[i].*to = other.value_of(BoxSum(sums[place]).mean());
+            });
+        }
     }
     void take_feature(Feature feature, std::size_t first, std::span<const float> values) {
         constexpr float per_difference = 1 / std::numbers::sqrt2_v<float>;
