@@ -93,10 +93,10 @@ TEST(MeltingLayer, FindsSyntheticLayers) {
         top.add(layer->heights.top_m, one.profile.top_m, layer->heights.top_error_m);
     }
     for (const HeightScore* of : {&bottom, &top}) {
-        EXPECT_LE(of->rms(), 80);
-        EXPECT_LE(of->largest(), 150);
-        EXPECT_GE(of->share(of->within), 0.68);
-        EXPECT_GE(of->share(of->within_twice), 0.95);
+        EXPECT_LE(of->rms(), 70);
+        EXPECT_LE(of->largest(), 130);
+        EXPECT_GE(of->share(of->within), 0.65);
+        EXPECT_EQ(of->share(of->within_twice), 1);
     }
 }
 

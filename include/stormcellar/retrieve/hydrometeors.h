@@ -1,8 +1,7 @@
 // stormcellar/retrieve/hydrometeors.h -- names the particles that make the echo of a gate: rain,
 // snow, hail and others, from dual polarization.
 //
-// Method    Fuzzy logic. Each class has a trapezoid for each of six variables: reflectivity, ZDR
-// and
+// Method    Fuzzy logic. Each class has a trapezoid for each of six variables: reflectivity, ZDR,
 //           the correlation coefficient (means of 3 radials x 1.25 km), the logarithm of KDP
 //           (kdp.h), and the standard deviations of reflectivity (3 x 1.75 km) and differential
 //           phase (3 x 2.25 km), which are root mean square differences of neighbors divided by the
@@ -18,11 +17,12 @@
 //           the rest of a core 10 km wide are its edges (tests/retrieve/hydrometeors_test.cpp).
 // Skill     Park et al. show one mesoscale system and give no score. Others report too much hail
 //           and graupel from such rules.
-// Not covered  The confidence that Park et al. give each measurement: all count in full.
-// Attenuation
-//           and calibration of ZDR: an error of 0.3 dB changes classes. Sweeps without dual
-//           polarization get no classes. The size of hail, tornado debris, other bands than S.
-// Source    Park, Ryzhkov, Zrnic and Kim (2009), Wea. Forecasting 24, 730, sections 3 and 4.
+// Not covered  The confidence that Park et al. give each measurement: all count in full. An error
+//           of ZDR, from calibration or attenuation, changes classes from about 0.3 dB on. Sweeps
+//           without dual polarization get no classes. The size of hail, tornado debris, other bands
+//           than S.
+// Source    Park, Ryzhkov, Zrnic and Kim (2009), Wea. Forecasting 24, 730, sections 3 and 4. No
+//           copy of the paper was at hand to compare the numbers of the tables once more.
 // Threads   Pure functions.
 #pragma once
 
