@@ -141,7 +141,7 @@ TEST_F(ReferenceHelp, BeginsWithExamplesAndAtMostTenOptions) {
     }
     EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), HasSubstr("--help-all"));
     EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), Not(HasSubstr("--curved-earth")));
-    EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), HasSubstr("Default: REF."));
+    EXPECT_THAT(help_of(at("frame"), HelpExtent::usual), HasSubstr("Default: the latest grid."));
     EXPECT_THAT(help_of(at("loop"), HelpExtent::all), HasSubstr("From -3600 to 3600."));
 }
 
