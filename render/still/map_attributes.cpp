@@ -84,10 +84,13 @@ std::span<const StateClass> state_classes(level2::Moment moment) {
     return std::span(all_state_classes).first(all_state_classes.size() - (is_derived ? 0 : 1));
 }
 
+std::uint8_t state_code(grid::CellStatus status, bool at_least) {
+    const bool is_more = at_least && status == grid::CellStatus::value;
+    return is_more ? at_least_code : static_cast<std::uint8_t>(status);
+}
+
 std::uint8_t state_of(const FlatField& field, std::size_t place) {
-    const bool at_least = !field.at_least.empty() && field.at_least[place] != 0 &&
-                          field.status[place] == grid::CellStatus::value;
-    return at_least ? at_least_code : static_cast<std::uint8_t>(field.status[place]);
+    return state_code(field.status[place], !field.at_least.empty() && field.at_least[place] != 0);
 }
 
 std::string map_variable(Product product) {
@@ -108,6 +111,8 @@ netcdf::CfAttributes map_attributes(const Scene& scene, const FrameFacts& facts)
     if (!names.cell_methods.empty())
         attributes.emplace_back("cell_methods", std::string(names.cell_methods));
     add_numbers(scene, attributes);
+    if (facts_of(scene.product).layer && facts.sites.size() > 1)
+        attributes.emplace_back("layer_is_above", "the lowest radar");
     const auto quality = retrieve::quality_note_in(std::span(&facts.quality, 1));
     if (quality) attributes.emplace_back("least_probability_of_weather", quality->least);
     if (quality && quality->share)

@@ -32,7 +32,8 @@ inline constexpr std::uint8_t at_least_code = 4;
 
 // Returns the states that columns of a moment may have. Their codes count up from 0.
 [[nodiscard]] std::span<const StateClass> state_classes(level2::Moment moment);
-// Returns the code of a column's state.
+// Return the code of a column's state. `at_least`: the true value may be larger.
+[[nodiscard]] std::uint8_t state_code(grid::CellStatus status, bool at_least);
 [[nodiscard]] std::uint8_t state_of(const FlatField& field, std::size_t place);
 
 // Returns the name of the product's variable, such as "vil_density".

@@ -9,7 +9,11 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
+#include "render/options/scene_options.h"
+#include "render/still/map_attributes.h"
+#include "render/still/map_raster.h"
 #include "tests/web/served_grids.h"
+#include "web/data/pictures/map_product.h"
 #include "web/data/zarr/zarr_cells.h"
 
 namespace stormcellar::web {
@@ -48,9 +52,10 @@ class ZarrTest : public ::testing::Test {
 
     ServedGrids served_;
     testing::TemporaryDirectory state_;
-    ZarrSources sources_{served_.shared_grids(),
-                         std::make_shared<KeptAnswers>(std::uint64_t{16} << 20),
-                         std::make_shared<TimeNumbers>(state_.path())};
+    ZarrSources sources_{
+        served_.shared_grids(), std::make_shared<KeptAnswers>(std::uint64_t{16} << 20),
+        std::make_shared<TimeNumbers>(state_.path()),
+        std::make_shared<MapPictures>(MapPicturesOptions{.grids = served_.shared_grids()})};
     ZarrDoor door_{sources_, ZarrVersion::two};
     ZarrDoor door3_{sources_, ZarrVersion::three};
 };
@@ -164,6 +169,83 @@ TEST_F(ZarrTest, ChunksHoldTheCellsOfTheGrid) {
         }
     }
     EXPECT_GT(with_value, 0u);
+}
+
+// Reads the whole array of a product, chunk by chunk, and compares it with the field.
+TEST_F(ZarrTest, AProductIsAGroupWhoseColumnsAreThoseOfItsMap) {
+    const auto newest = *sources_.grids->newest("KBGM", level2::Moment::ref);
+    const auto grid = *sources_.grids->find("KBGM", level2::Moment::ref, newest);
+    const grid::BrickView view = grid->file.view();
+    const auto facts = render::frame_facts_of("KBGM", grid->file.description(), "UTC");
+    for (const char* name : {"mesh", "echotop", "composite.REF"}) {
+        const auto layer = *map_product_named(name);
+        const auto style = *map_style(layer, {}, {});
+        const auto field = *render::still_field({view, facts, style.scene}, 1);
+        const std::string group = std::string("/zarr/KBGM/") + name;
+        const std::string array = render::map_variable(layer.product);
+        const auto all = zarr_json(get(group + "/.zmetadata"))["metadata"];
+        EXPECT_EQ(all.at(array + "/.zarray").at("shape"),
+                  nlohmann::json::array({3, field.height, field.width}));
+        EXPECT_EQ(all.at(array + "/.zattrs").at("_ARRAY_DIMENSIONS"),
+                  nlohmann::json::array({"time", "y", "x"}));
+        EXPECT_FALSE(all.contains("z/.zarray"));
+        EXPECT_EQ(all.at("status/.zarray").at("fill_value"), 6);
+        for (int cy = 0; cy < chunks_along(field.height); ++cy) {
+            for (int cx = 0; cx < chunks_along(field.width); ++cx) {
+                const std::string chunk = fmt::format("/2.{}.{}", cy, cx);
+                const auto values = numbers_in<float>(get(group + "/" + array + chunk));
+                const auto states = numbers_in<std::int8_t>(get(group + "/status" + chunk));
+                ASSERT_EQ(values.size(), std::size_t{chunk_side} * chunk_side);
+                ASSERT_EQ(states.size(), values.size());
+                for (std::size_t i = 0; i < values.size(); ++i) {
+                    const int ix = cx * chunk_side + static_cast<int>(i) % chunk_side;
+                    const int iy = cy * chunk_side + static_cast<int>(i) / chunk_side;
+                    if (ix >= field.width || iy >= field.height) {
+                        ASSERT_EQ(states[i], map_status_unavailable);
+                        ASSERT_TRUE(std::isnan(values[i]));
+                        continue;
+                    }
+                    const std::size_t column = field.index(ix, iy);
+                    ASSERT_EQ(states[i], static_cast<int>(render::state_of(field, column)));
+                    if (field.status[column] == grid::CellStatus::value)
+                        ASSERT_EQ(values[i], field.values[column]);
+                    else
+                        ASSERT_TRUE(std::isnan(values[i]));
+                }
+            }
+        }
+    }
+}
+
+TEST_F(ZarrTest, AProductSaysWhatItAssumesInBothVersions) {
+    const auto two = zarr_json(get("/zarr/KBGM/posh/.zmetadata"))["metadata"];
+    const auto three = zarr_json(get3("/zarr3/KBGM/posh/posh/zarr.json"));
+    const auto& attributes = three.at("attributes");
+    EXPECT_EQ(attributes.at("assumed_height_of_0_C_m"), 4200);
+    EXPECT_EQ(attributes.at("units"), "%");
+    EXPECT_EQ(two.at("posh/.zattrs").at("assumed_height_of_0_C_m"), 4200);
+    EXPECT_EQ(two.at("status/.zattrs").at("flag_meanings"),
+              "not_seen no_echo range_folded value value_or_more unavailable");
+    EXPECT_EQ(body_of(get("/zarr/KBGM/posh/posh/2.0.0")),
+              body_of(get3("/zarr3/KBGM/posh/posh/c/2/0/0")));
+    const auto index = zarr_json(get("/zarr"));
+    const auto named = [&](const char* name) {
+        return std::ranges::any_of(index.at("products"),
+                                   [&](const auto& one) { return one.at("product") == name; });
+    };
+    EXPECT_TRUE(named("posh"));
+    EXPECT_FALSE(named("rain-total")) << "it is made of several grids";
+    EXPECT_FALSE(named("rotation")) << "the domain has no grids of AZSH";
+}
+
+TEST_F(ZarrTest, ProductsThatAGroupCannotHaveAreNotFound) {
+    for (const char* target :
+         {"/zarr/KBGM/rain-total/.zmetadata", "/zarr/KBGM/volume/.zmetadata",
+          "/zarr/KBGM/vil.VEL/.zmetadata", "/zarr/KBGM/rotation/.zmetadata",
+          "/zarr/KBGM/mesh/mesh/2.9.0", "/zarr/KBGM/mesh/mesh/2.0.0.0",
+          "/zarr/KBGM/mesh/mesh/3.0.0", "/zarr/KBGM/mesh/z/0", "/zarr/KFDR/mesh/.zmetadata"})
+        EXPECT_EQ(get(target).status, 404u) << target;
+    EXPECT_EQ(get("/zarr/KBGM/mesh/mesh/0.0.0").status, 404u) << "the oldest grid has other cells";
 }
 
 // Compares every chunk of a grid with cells of all states, including the cells beyond its edges.

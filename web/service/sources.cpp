@@ -32,37 +32,48 @@ namespace {
 // seconds. So both have their own workers.
 constexpr std::size_t maps_for_a_frame = 8;
 
-void add_pictures(Doors& doors, const Sources& sources) {
-    const WebLimits& limits = sources.setup.web.limits;
+// Draws the pictures of the data server, with one memory for all.
+struct Pictures {
+    FramePicturesOptions options;
+    std::shared_ptr<SweepPictures> sweeps;
+    std::shared_ptr<MapPictures> maps;
+};
+Pictures pictures_of(const Sources& sources) {
     const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const auto kept = std::make_shared<KeptAnswers>(sources.setup.web.limits.kept_picture_bytes);
+    const FramePicturesOptions options{.kept = kept, .threads = threads};
+    const auto sweeps = std::make_shared<SweepPictures>(
+        std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog), options);
+    return {options, sweeps,
+            std::make_shared<MapPictures>(MapPicturesOptions{
+                .grids = sources.grids, .sweeps = sweeps, .kept = kept, .threads = threads})};
+}
+
+void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures) {
+    const WebLimits& limits = sources.setup.web.limits;
     const auto renders = static_cast<unsigned>(limits.renders);
     const auto waiting = static_cast<std::size_t>(limits.waiting);
-    const auto kept = std::make_shared<KeptAnswers>(limits.kept_picture_bytes);
-    const FramePicturesOptions of_frames{.kept = kept, .threads = threads};
-    const auto sweeps = std::make_shared<SweepPictures>(
-        std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog), of_frames);
-    const auto maps = std::make_shared<MapPictures>(MapPicturesOptions{
-        .grids = sources.grids, .sweeps = sweeps, .kept = kept, .threads = threads});
     const auto map_workers = std::make_shared<WorkQueue>(renders, waiting * maps_for_a_frame);
-    const auto tiles = std::make_shared<TilesDoor>(maps);
+    const auto tiles = std::make_shared<TilesDoor>(pictures.maps);
     tiles->set_workers(map_workers);
     doors.add("/tiles", tiles);
-    const auto wms = std::make_shared<WmsDoor>(maps);
+    const auto wms = std::make_shared<WmsDoor>(pictures.maps);
     wms->set_workers(map_workers);
     doors.add("/wms", wms);
-    const auto rainviewer = std::make_shared<RainViewerDoor>(maps);
+    const auto rainviewer = std::make_shared<RainViewerDoor>(pictures.maps);
     rainviewer->set_workers(map_workers);
     for (const char* prefix : {"/public", "/api/maps.json", "/v2", "/rainviewer"})
         doors.add(prefix, rainviewer);
     const auto frames = std::make_shared<FramesDoor>(
-        sources.grids, std::make_shared<FramePictures>(of_frames), sweeps);
+        sources.grids, std::make_shared<FramePictures>(pictures.options), pictures.sweeps);
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
     doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));
 }
 
-void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept) {
-    const ZarrSources shared{sources.grids, kept, sources.numbers};
+void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept,
+              const std::shared_ptr<MapPictures>& maps) {
+    const ZarrSources shared{sources.grids, kept, sources.numbers, maps};
     doors.add("/zarr", std::make_shared<ZarrDoor>(shared, ZarrVersion::two));
     doors.add("/zarr3", std::make_shared<ZarrDoor>(shared, ZarrVersion::three));
 }
@@ -145,7 +156,8 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const auto kept = std::make_shared<KeptAnswers>(limits.kept_bytes);
     const auto scans = std::make_shared<StormScans>(sources.grids, setup.web.freezing);
     const Watched watched = watch_over(sources, scans);
-    if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept);
+    const Pictures pictures = pictures_of(sources);
+    if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept, pictures.maps);
     if (setup.web.serves(WebPart::grids)) {
         const auto storms = std::make_shared<const StormAnswers>(scans, kept);
         const auto api = std::make_shared<ApiDoor>(
@@ -167,7 +179,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
-    if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources);
+    if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources, pictures);
     // The page of the viewer draws data of the API.
     if (setup.web.serves(WebPart::grids) && !viewer_files().empty())
         doors->add("/view", std::make_shared<ViewerDoor>());

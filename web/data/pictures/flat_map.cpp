@@ -82,7 +82,7 @@ std::string key_of_map(const OpenGrid& grid, const render::Scene& scene) {
 
 std::shared_ptr<const FlatMap> map_with_levels(FlatMap map, render::FlatField field,
                                                const render::Scene& scene, int threads) {
-    field.at_least = {};
+    map.at_least = std::exchange(field.at_least, {});
     map.levels.push_back(std::move(field));
     while (std::max(map.levels.back().width, map.levels.back().height) > smallest_side)
         map.levels.push_back(halved_field(map.levels.back(), scene, threads));
@@ -97,7 +97,7 @@ Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const rend
     auto field = render::still_field({view, facts, scene}, threads);
     if (!field) return pass_on(field);
     if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
-    return map_with_levels({grid.file.description().spec, {}, {}}, std::move(*field), scene,
+    return map_with_levels({grid.file.description().spec, {}, {}, {}}, std::move(*field), scene,
                            threads);
 }
 
@@ -108,14 +108,14 @@ Result<std::shared_ptr<const FlatMap>> made_map(const SweepPicture& picture,
     auto sweep = std::make_shared<const PlacedSweep>(std::move(decoded->front()));
     const grid::GridSpec& spec = sweep->description.spec;
     auto field = render::sweep_in_columns(sweep->sweep, spec, threads);
-    return map_with_levels({spec, sweep, {}}, std::move(field), picture.style.panels.front().scene,
-                           threads);
+    return map_with_levels({spec, sweep, {}, {}}, std::move(field),
+                           picture.style.panels.front().scene, threads);
 }
 
 }  // namespace
 
 std::uint64_t FlatMap::bytes() const {
-    std::uint64_t bytes = sizeof(FlatMap);
+    std::uint64_t bytes = sizeof(FlatMap) + at_least.size();
     for (const render::FlatField& level : levels)
         bytes += level.values.size() * (sizeof(float) + sizeof(CellStatus));
     if (sweep) {

@@ -39,6 +39,9 @@ struct FlatMap {
     grid::GridSpec spec;
     std::shared_ptr<const PlacedSweep> sweep;  // whose gates level 0 samples; null: of a grid
     std::vector<render::FlatField> levels;     // at least one
+    // FlatField::at_least of level 0. The levels have none, so that pictures of all scales look
+    // alike.
+    std::vector<std::uint8_t> at_least;
     [[nodiscard]] std::uint64_t bytes() const;
 };
 

@@ -74,6 +74,11 @@ class MapPictures {
     // and of the encoder.
     [[nodiscard]] Result<Kept> find_or_draw(const MapPicture& picture);
 
+    // Returns the 2D product of a grid. Errors: those of FlatMaps::find_or_make().
+    [[nodiscard]] Result<std::shared_ptr<const FlatMap>> map_of(const OpenGrid& grid,
+                                                                const render::Scene& scene) {
+        return maps_.find_or_make(grid, scene, options_.threads);
+    }
     // Returns the value of the column at the place, from the product at full resolution. Returns
     // none outside the grid. Errors: those of FlatMaps::find_or_make().
     [[nodiscard]] Result<std::optional<MapValue>> value_at(const PictureLayer& layer,

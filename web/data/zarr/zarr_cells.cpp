@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "render/still/map_attributes.h"
 #include "stormcellar/grid/projection.h"
 
 namespace stormcellar::web {
@@ -73,6 +74,19 @@ std::string text_of_numbers(const std::vector<Number>& numbers) {
     return bytes;
 }
 
+// Calls `column(index in the chunk, place in the field)` for each column of the chunk.
+template <class Column>
+void for_each_column_of(const render::FlatField& field, const ChunkPlace& place,
+                        const Column& column) {
+    const Stretch rows = stretch_of(place.y, chunk_side, field.height);
+    const Stretch columns = stretch_of(place.x, chunk_side, field.width);
+    for (int iy = rows.first; iy < rows.end; ++iy)
+        for (int ix = columns.first; ix < columns.end; ++ix)
+            column(static_cast<std::size_t>(iy - rows.first) * chunk_side +
+                       static_cast<std::size_t>(ix - columns.first),
+                   field.index(ix, iy));
+}
+
 }  // namespace
 
 int chunk_levels(const grid::GridSpec& spec) {
@@ -113,6 +127,27 @@ std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place) {
                 states[cells.index(ix, iy, iz)] = static_cast<char>(status);
             });
         });
+    return states;
+}
+
+std::string map_value_chunk(const FlatMap& map, const ChunkPlace& place) {
+    const render::FlatField& field = map.levels.front();
+    std::vector<float> values(std::size_t{chunk_side} * chunk_side,
+                              std::numeric_limits<float>::quiet_NaN());
+    for_each_column_of(field, place, [&](std::size_t at, std::size_t column) {
+        if (field.status[column] == CellStatus::value) values[at] = field.values[column];
+    });
+    return text_of_numbers(values);
+}
+
+std::string map_status_chunk(const FlatMap& map, const ChunkPlace& place) {
+    const render::FlatField& field = map.levels.front();
+    std::string states(std::size_t{chunk_side} * chunk_side,
+                       static_cast<char>(map_status_unavailable));
+    for_each_column_of(field, place, [&](std::size_t at, std::size_t column) {
+        const bool at_least = !map.at_least.empty() && map.at_least[column] != 0;
+        states[at] = static_cast<char>(render::state_code(field.status[column], at_least));
+    });
     return states;
 }
 

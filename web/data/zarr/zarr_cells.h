@@ -14,6 +14,7 @@
 #include <string>
 
 #include "stormcellar/grid/brick_view.h"
+#include "web/data/pictures/flat_map.h"
 
 namespace stormcellar::web {
 
@@ -35,6 +36,12 @@ struct ChunkPlace {
 [[nodiscard]] std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place);
 // Returns the states of the cells as int8 numbers.
 [[nodiscard]] std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place);
+
+// The same for 2D products, whose states include `value_or_more` (4), so that another flag means
+// unavailable. A chunk has `chunk_side` columns and rows of the map's full resolution.
+inline constexpr std::int8_t map_status_unavailable = 6;
+[[nodiscard]] std::string map_value_chunk(const FlatMap& map, const ChunkPlace& place);
+[[nodiscard]] std::string map_status_chunk(const FlatMap& map, const ChunkPlace& place);
 
 // Selects what position_chunk() returns: the latitude or the longitude of the middle of each column
 // of cells. Positions are in degrees, as in grid files (export/grid_coordinates.h). A chunk has

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "export/cf_attributes.h"
+#include "render/still/map_attributes.h"
 #include "stormcellar/level2/moment.h"
+#include "stormcellar/retrieve/derived_moments.h"
 #include "web/data/grids/compressed.h"
 #include "web/data/zarr/zarr_cells.h"
 
@@ -50,40 +52,76 @@ ZarrArray axis(std::string name, std::size_t size, std::size_t chunk,
             .attributes = json_of(attributes)};
 }
 
-std::vector<ZarrArray> fields_of(const cache::GridDescription& newest, std::size_t times,
-                                 const netcdf::MapNames& names) {
-    const grid::GridSpec& spec = newest.spec;
-    ZarrArray values{
-        .name = std::string(level2::moment_name(newest.moment)),
-        .number = ZarrNumber::float32,
-        .dimensions = {"time", "z", names.y, names.x},
-        .shape = {times, spec.levels_m.size(), static_cast<std::size_t>(spec.ny),
-                  static_cast<std::size_t>(spec.nx)},
-        .chunk = {1, static_cast<std::size_t>(chunk_levels(spec)), chunk_side, chunk_side},
-        .fill = "NaN",
-        .attributes = json_of(netcdf::field_attributes(newest.moment, newest.provenance.method))};
+// The states of an array, and the flag for grids that are gone.
+struct Flags {
+    std::vector<int> values = {};
+    std::string meanings = {};  // each followed by a blank
+    std::int8_t unavailable = 0;
+};
+
+// Completes a pair of arrays: `values` has its name, shape, chunks and attributes.
+std::vector<ZarrArray> with_states(ZarrArray values, const grid::GridSpec& spec,
+                                   const netcdf::CfAttributes& of_states, Flags flags) {
+    values.number = ZarrNumber::float32;
+    values.fill = "NaN";
     values.attributes.update(json_of(netcdf::reference_to_map(spec)));
     values.attributes["ancillary_variables"] = "status";
     values.version2_attributes["_CRS"] = {{"wkt", netcdf::well_known_text(spec)}};
     ZarrArray states = values;
     states.name = "status";
     states.number = ZarrNumber::int8;
-    states.fill = status_unavailable;
-    states.attributes = json_of(netcdf::status_attributes(newest.moment));
+    states.fill = flags.unavailable;
+    states.attributes = json_of(of_states);
     states.attributes.update(json_of(netcdf::reference_to_map(spec)));
-    ZarrJson flags = ZarrJson::array();
-    std::string meanings;
-    for (const grid::CellStatus state : grid::states_of(newest.moment)) {
-        flags.push_back(static_cast<int>(state));
-        meanings += std::string(grid::cell_status_name(state)) + " ";
-    }
-    flags.push_back(status_unavailable);
-    states.attributes["flag_values"] = std::move(flags);
-    states.attributes["flag_meanings"] = meanings + "unavailable";
+    flags.values.push_back(flags.unavailable);
+    states.attributes["flag_values"] = flags.values;
+    states.attributes["flag_meanings"] = flags.meanings + "unavailable";
     states.attributes["fill_value_comment"] =
         "unavailable: the grid of this time was evicted, or could not be read; nothing is known of "
         "the cell";
     return {std::move(values), std::move(states)};
+}
+
+std::vector<ZarrArray> fields_of(const cache::GridDescription& newest, std::size_t times,
+                                 const netcdf::MapNames& names) {
+    const grid::GridSpec& spec = newest.spec;
+    ZarrArray values{
+        .name = std::string(level2::moment_name(newest.moment)),
+        .dimensions = {"time", "z", names.y, names.x},
+        .shape = {times, spec.levels_m.size(), static_cast<std::size_t>(spec.ny),
+                  static_cast<std::size_t>(spec.nx)},
+        .chunk = {1, static_cast<std::size_t>(chunk_levels(spec)), chunk_side, chunk_side},
+        .attributes = json_of(netcdf::field_attributes(newest.moment, newest.provenance.method))};
+    Flags flags{.unavailable = status_unavailable};
+    for (const grid::CellStatus state : grid::states_of(newest.moment)) {
+        flags.values.push_back(static_cast<int>(state));
+        flags.meanings += std::string(grid::cell_status_name(state)) + " ";
+    }
+    return with_states(std::move(values), spec, netcdf::status_attributes(newest.moment),
+                       std::move(flags));
+}
+
+std::vector<ZarrArray> map_fields_of(const cache::GridDescription& newest, std::size_t times,
+                                     const netcdf::MapNames& names, const render::Scene& scene) {
+    const grid::GridSpec& spec = newest.spec;
+    render::FrameFacts facts;
+    // The share that was left out differs from grid to grid.
+    facts.quality = retrieve::quality_in_notes(newest.provenance.notes);
+    facts.quality = facts.quality.substr(0, facts.quality.find(';'));
+    ZarrArray values{
+        .name = render::map_variable(scene.product),
+        .dimensions = {"time", names.y, names.x},
+        .shape = {times, static_cast<std::size_t>(spec.ny), static_cast<std::size_t>(spec.nx)},
+        .chunk = {1, chunk_side, chunk_side},
+        .attributes = json_of(render::map_attributes(scene, facts))};
+    Flags flags{.unavailable = map_status_unavailable};
+    for (const render::StateClass& state : render::state_classes(scene.moment)) {
+        if (!render::may_have(scene.product, state)) continue;
+        flags.values.push_back(state.code);
+        flags.meanings += render::state_word(state) + " ";
+    }
+    return with_states(std::move(values), spec, render::map_state_attributes(scene),
+                       std::move(flags));
 }
 
 std::vector<ZarrArray> positions_of(const grid::GridSpec& spec, const netcdf::MapNames& names) {
@@ -102,24 +140,16 @@ std::vector<ZarrArray> positions_of(const grid::GridSpec& spec, const netcdf::Ma
     return {std::move(latitude), std::move(longitude)};
 }
 
-}  // namespace
-
-const ZarrArray* ZarrGroup::find(std::string_view name) const {
-    const auto found = std::ranges::find(arrays, name, &ZarrArray::name);
-    return found == arrays.end() ? nullptr : &*found;
-}
-
-ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
-                     std::size_t times) {
+// Adds the coordinates, except heights, and the attributes to the fields of a group.
+ZarrGroup group_about(std::vector<ZarrArray> fields, std::string_view domain,
+                      const cache::GridDescription& newest, std::size_t times,
+                      std::string_view title) {
     const grid::GridSpec& spec = newest.spec;
     const netcdf::MapNames names = netcdf::map_names(spec);
-    const std::string moment{level2::moment_name(newest.moment)};
     ZarrGroup group;
-    group.arrays = fields_of(newest, times, names);
+    group.arrays = std::move(fields);
     group.arrays.push_back(
         axis("time", times, times_of_a_chunk, netcdf::time_attributes("time of the grid")));
-    group.arrays.push_back(
-        axis("z", spec.levels_m.size(), spec.levels_m.size(), netcdf::height_attributes()));
     group.arrays.push_back(axis(names.y, static_cast<std::size_t>(spec.ny),
                                 static_cast<std::size_t>(spec.ny), netcdf::row_attributes(spec)));
     group.arrays.push_back(axis(names.x, static_cast<std::size_t>(spec.nx),
@@ -136,14 +166,38 @@ ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newe
                             .attributes = json_of(netcdf::mapping_attributes(spec))});
     group.attributes = {
         {"Conventions", "CF-1.8"},
-        {"title", fmt::format("{} of {}, gridded", moment, domain)},
+        {"title", fmt::format("{} of {}, gridded", title, domain)},
         {"source", "weather radar Level II volumes"},
         {"domain", domain},
         {"comment",
          "A time keeps its index for good, so times need not rise: sort by them. Grids that are "
          "gone have no value and the status unavailable."},
-        {"provenance", fmt::format("/api/v1/grids/{}/{}/TIME", domain, moment)}};
+        {"provenance",
+         fmt::format("/api/v1/grids/{}/{}/TIME", domain, level2::moment_name(newest.moment))}};
     return group;
+}
+
+}  // namespace
+
+const ZarrArray* ZarrGroup::find(std::string_view name) const {
+    const auto found = std::ranges::find(arrays, name, &ZarrArray::name);
+    return found == arrays.end() ? nullptr : &*found;
+}
+
+ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
+                     std::size_t times) {
+    const grid::GridSpec& spec = newest.spec;
+    ZarrGroup group = group_about(fields_of(newest, times, netcdf::map_names(spec)), domain, newest,
+                                  times, level2::moment_name(newest.moment));
+    group.arrays.push_back(
+        axis("z", spec.levels_m.size(), spec.levels_m.size(), netcdf::height_attributes()));
+    return group;
+}
+
+ZarrGroup zarr_group_of_map(std::string_view domain, const cache::GridDescription& newest,
+                            std::size_t times, const MapStyle& style) {
+    return group_about(map_fields_of(newest, times, netcdf::map_names(newest.spec), style.scene),
+                       domain, newest, times, style.layer.name());
 }
 
 ZarrJson zarray_of(const ZarrArray& array) {

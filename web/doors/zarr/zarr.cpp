@@ -6,10 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/checksum.h"
 #include "export/cf_attributes.h"
+#include "render/still/map_attributes.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/level2/moment.h"
 #include "web/data/grids/compressed.h"
@@ -21,7 +22,6 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::size_t segments_of_a_group = 3;  // zarr, domain, moment
-constexpr std::size_t dimensions_of_a_field = 4;
 
 std::optional<std::size_t> whole_number(std::string_view text) {
     std::size_t number = 0;
@@ -50,15 +50,17 @@ Answer no_such_key() {
     return sentence(404, "There is no such key in this Zarr group.");
 }
 
-std::string chunk_key(const OpenGrid& grid, std::string_view array,
+// `name` is the name of the group.
+std::string chunk_key(const OpenGrid& grid, std::string_view name, std::string_view array,
                       const std::vector<std::size_t>& place) {
-    return fmt::format("zarr/{}/{}/{}/{}/{}.{}.{}", grid.domain, level2::moment_name(grid.moment),
-                       grid.id, array, place[1], place[2], place[3]);
+    return fmt::format("zarr/{}/{}/{}/{}/{}", grid.domain, name, grid.id, array,
+                       fmt::join(place.begin() + 1, place.end(), "."));
 }
 
 std::string chunk_tag(const OpenGrid& grid, std::string_view array,
                       const std::vector<std::size_t>& place) {
-    return fmt::format("\"{}-{}-{}.{}.{}\"", grid.id, array, place[1], place[2], place[3]);
+    return fmt::format("\"{}-{}-{}\"", grid.id, array,
+                       fmt::join(place.begin() + 1, place.end(), "."));
 }
 
 // Returns the numbers of an axis from `first` on. Beyond the end of the axis they are NaN.
@@ -85,14 +87,12 @@ Result<Kept> packed_chunk(std::string_view bytes, std::string etag) {
     return Kept{text_of(std::move(*packed)), std::move(etag), {}};
 }
 
-Result<Kept> made_chunk(const OpenGrid& grid, const ZarrArray& array,
-                        const std::vector<std::size_t>& place) {
+std::string made_cells(const OpenGrid& grid, const ZarrArray& array,
+                       const std::vector<std::size_t>& place) {
     const ChunkPlace at{static_cast<int>(place[1]), static_cast<int>(place[2]),
                         static_cast<int>(place[3])};
-    const std::string cells = array.number == ZarrNumber::int8 ? status_chunk(grid.file.view(), at)
-                                                               : value_chunk(grid.file.view(), at);
-    if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
-    return packed_chunk(cells, chunk_tag(grid, array.name, place));
+    return array.number == ZarrNumber::int8 ? status_chunk(grid.file.view(), at)
+                                            : value_chunk(grid.file.view(), at);
 }
 
 }  // namespace
@@ -100,6 +100,16 @@ Result<Kept> made_chunk(const OpenGrid& grid, const ZarrArray& array,
 struct ZarrDoor::Named {
     std::string domain;
     level2::Moment moment;
+    std::optional<MapStyle> map = {};  // none: all cells of the moment
+
+    [[nodiscard]] std::string name() const {
+        return map ? map->layer.name() : std::string(level2::moment_name(moment));
+    }
+    [[nodiscard]] std::string array() const {
+        return map ? render::map_variable(map->layer.product) : name();
+    }
+    // Returns the number of dimensions of the arrays that have cells or columns.
+    [[nodiscard]] std::size_t dimensions() const { return map ? 3 : 4; }
 };
 
 struct ZarrDoor::Opened {
@@ -112,9 +122,13 @@ struct ZarrDoor::Opened {
 
 std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_view>& path) const {
     if (path.size() < segments_of_a_group) return std::nullopt;
-    const auto moment = level2::moment_from_name(path[2]);
-    if (!moment) return std::nullopt;
-    return Named{std::string(path[1]), *moment};
+    if (const auto moment = level2::moment_from_name(path[2]))
+        return Named{std::string(path[1]), *moment};
+    const auto layer = map_product_named(path[2]);
+    if (!layer) return std::nullopt;
+    auto style = map_style(*layer, {}, {});
+    if (!style) return std::nullopt;
+    return Named{std::string(path[1]), layer->moment, std::move(*style)};
 }
 
 // Describes the group from the newest grid. Each request does this, because it takes only
@@ -131,8 +145,10 @@ Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     auto newest = sources_.grids->find(named.domain, named.moment, newest_time);
     if (!newest) return pass_on(newest);
     Opened opened{std::move(*times), std::move(*newest), {}};
-    opened.group =
-        zarr_group(named.domain, opened.newest->file.description(), opened.times->size());
+    const cache::GridDescription& newest_grid = opened.newest->file.description();
+    const std::size_t count = opened.times->size();
+    opened.group = named.map ? zarr_group_of_map(named.domain, newest_grid, count, *named.map)
+                             : zarr_group(named.domain, newest_grid, count);
     return opened;
 }
 
@@ -180,14 +196,14 @@ std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     const auto group = named(path);
     if (!group || path.size() < segments_of_a_group + 2) return std::nullopt;
     const std::vector<std::string_view> rest(path.begin() + segments_of_a_group, path.end());
-    const bool is_field = rest[0] == "status" || rest[0] == level2::moment_name(group->moment);
-    const auto place = place_in(rest, dimensions_of_a_field);
+    const bool is_field = rest[0] == "status" || rest[0] == group->array();
+    const auto place = place_in(rest, group->dimensions());
     if (!is_field || !place) return std::nullopt;
     const auto time = sources_.numbers->time_of(group->domain, group->moment, (*place)[0]);
     if (!time) return std::nullopt;
     const auto grid = sources_.grids->find_if_open(group->domain, group->moment, *time);
     if (!grid || !has_cells_of_newest(*group, *grid)) return std::nullopt;
-    const auto kept = sources_.kept->find(chunk_key(*grid, rest[0], *place));
+    const auto kept = sources_.kept->find(chunk_key(*grid, group->name(), rest[0], *place));
     if (!kept) return std::nullopt;
     return zarr_chunk(request, *kept, max_age_of("", *grid));
 }
@@ -197,7 +213,9 @@ Answer ZarrDoor::answer(const Request& request) {
     if (path.size() == 1) return index(request);
     const auto group = named(path);
     if (!group)
-        return sentence(404, fmt::format("There are /{0} and /{0}/DOMAIN/MOMENT here.", path[0]));
+        return sentence(
+            404, fmt::format("There are /{0}, /{0}/DOMAIN/MOMENT and /{0}/DOMAIN/PRODUCT here.",
+                             path[0]));
     const auto opened = open(*group);
     if (!opened) return picture_error(opened.error());
     const std::vector<std::string_view> rest(path.begin() + segments_of_a_group, path.end());
@@ -214,19 +232,26 @@ Answer ZarrDoor::answer(const Request& request) {
 }
 
 Answer ZarrDoor::index(const Request& request) const {
-    ZarrJson groups = ZarrJson::array();
+    ZarrJson groups = ZarrJson::array(), products = ZarrJson::array();
+    const auto group_named = [&](const std::string& domain, level2::Moment moment,
+                                 std::string_view name) -> ZarrJson {
+        return {{"domain", domain},
+                {"moment", level2::moment_name(moment)},
+                {"zarr", fmt::format("{}/zarr/{}/{}", request.base, domain, name)},
+                {"zarr3", fmt::format("{}/zarr3/{}/{}", request.base, domain, name)}};
+    };
     for (const std::string& domain : sources_.grids->domains()) {
         if (cache::is_part(domain)) continue;
-        for (const level2::Moment moment : sources_.grids->moments(domain)) {
-            const auto name = level2::moment_name(moment);
-            groups.push_back(
-                {{"domain", domain},
-                 {"moment", name},
-                 {"zarr", fmt::format("{}/zarr/{}/{}", request.base, domain, name)},
-                 {"zarr3", fmt::format("{}/zarr3/{}/{}", request.base, domain, name)}});
+        const auto moments = sources_.grids->moments(domain);
+        for (const level2::Moment moment : moments)
+            groups.push_back(group_named(domain, moment, level2::moment_name(moment)));
+        for (const MapProduct& layer : map_products_of(moments)) {
+            products.push_back(group_named(domain, layer.moment, layer.name()));
+            products.back()["product"] = layer.name();
         }
     }
-    return zarr_document(request, {{"groups", std::move(groups)}});
+    return zarr_document(request,
+                         {{"groups", std::move(groups)}, {"products", std::move(products)}});
 }
 
 Answer ZarrDoor::document(const Request& request, const Opened& opened,
@@ -254,7 +279,7 @@ Answer ZarrDoor::document(const Request& request, const Opened& opened,
 
 Answer ZarrDoor::chunk(const Request& request, const Named& named, const Opened& opened,
                        const ZarrArray& array, const std::vector<std::size_t>& place) const {
-    if (place.size() == dimensions_of_a_field) return cells(request, named, opened, array, place);
+    if (place.size() == named.dimensions()) return cells(request, named, opened, array, place);
     const grid::GridSpec& spec = opened.spec();
     const netcdf::MapNames names = netcdf::map_names(spec);
     const auto made = [&]() -> std::string {
@@ -289,6 +314,21 @@ Answer ZarrDoor::chunk(const Request& request, const Named& named, const Opened&
     return zarr_chunk(request, *packed, {});
 }
 
+Result<Kept> ZarrDoor::made(const OpenGrid& grid, const Named& named, const ZarrArray& array,
+                            const std::vector<std::size_t>& place) const {
+    if (!named.map) {
+        const std::string cells = made_cells(grid, array, place);
+        if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
+        return packed_chunk(cells, chunk_tag(grid, array.name, place));
+    }
+    const auto map = sources_.maps->map_of(grid, named.map->scene);
+    if (!map) return pass_on(map);
+    const ChunkPlace at{0, static_cast<int>(place[1]), static_cast<int>(place[2])};
+    return packed_chunk(
+        array.number == ZarrNumber::int8 ? map_status_chunk(**map, at) : map_value_chunk(**map, at),
+        chunk_tag(grid, array.name, place));
+}
+
 Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened& opened,
                        const ZarrArray& array, const std::vector<std::size_t>& place) const {
     const UtcTime time = (*opened.times)[place[0]];
@@ -302,8 +342,9 @@ Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened&
                         fmt::format("The grid of {} has other cells than the newest one, whose "
                                     "array this is. See /api/v1/grids for it.",
                                     format_utc(time)));
-    const auto kept = sources_.kept->find_or_make(chunk_key(**grid, array.name, place),
-                                                  [&] { return made_chunk(**grid, array, place); });
+    const auto kept =
+        sources_.kept->find_or_make(chunk_key(**grid, named.name(), array.name, place),
+                                    [&] { return made(**grid, named, array, place); });
     if (!kept) return picture_error(kept.error());
     return zarr_chunk(request, *kept, max_age_of("", **grid));
 }

@@ -4,6 +4,8 @@
 //   /zarr/DOMAIN/MOMENT/...    a group in version 2 of the format, with consolidated metadata
 //   /zarr3/DOMAIN/MOMENT/...   a group in version 3
 //
+// In place of a moment, a path may name a 2D product as tiles do (map_product.h): /zarr/KTLX/mesh.
+//
 // Chunks are made on request and kept. A chunk of an evicted grid gets 404, which is the protocol's
 // answer for a missing chunk. Readers then use the fill value; in the array of states, it means
 // "unavailable".
@@ -18,6 +20,7 @@
 
 #include "web/data/grids/grids.h"
 #include "web/data/grids/kept_answers.h"
+#include "web/data/pictures/map_pictures.h"
 #include "web/data/zarr/time_numbers.h"
 #include "web/data/zarr/zarr_layout.h"
 #include "web/http/door.h"
@@ -31,6 +34,7 @@ struct ZarrSources {
     std::shared_ptr<Grids> grids;
     std::shared_ptr<KeptAnswers> kept;
     std::shared_ptr<TimeNumbers> numbers;
+    std::shared_ptr<MapPictures> maps;  // makes 2D products
 };
 
 class ZarrDoor final : public Door {
@@ -42,7 +46,7 @@ class ZarrDoor final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    struct Named;   // a domain and a moment that a path names
+    struct Named;   // a domain, and a moment or a product, that a path names
     struct Opened;  // the group of a Named
 
     [[nodiscard]] std::optional<Named> named(const std::vector<std::string_view>& path) const;
@@ -55,6 +59,9 @@ class ZarrDoor final : public Door {
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
     [[nodiscard]] Answer cells(const Request& request, const Named& named, const Opened& opened,
                                const ZarrArray& array, const std::vector<std::size_t>& place) const;
+    [[nodiscard]] Result<Kept> made(const OpenGrid& grid, const Named& named,
+                                    const ZarrArray& array,
+                                    const std::vector<std::size_t>& place) const;
     // Returns the indices of a chunk, or none if the key is not a chunk's.
     [[nodiscard]] std::optional<std::vector<std::size_t>> place_in(
         const std::vector<std::string_view>& rest, std::size_t dimensions) const;
