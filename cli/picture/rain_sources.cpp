@@ -21,7 +21,7 @@ using retrieve::RainTotal;
 // Longer than any volume takes, so that grids are listed by their start.
 constexpr std::chrono::minutes longest_volume{30};
 constexpr const char* reflectivity_note =
-    "rain rates by reflectivity alone, because the cache has no grids of RATE";
+    "rain rates by reflectivity alone, because the cache has no grids of rain rates";
 
 // The lowest rates of a volume, as cells, which take less memory than bricks.
 struct LowestRates {
@@ -84,7 +84,8 @@ Result<UtcTime> end_of_total(const cache::StoreReader& store, const std::string&
     const auto entries = entries_of(store, domain, std::nullopt, std::nullopt);
     if (!entries) return pass_on(entries);
     if (entries->empty()) {
-        return fail(ErrorCode::not_found, "domain '{}' has no grids of RATE or REF", domain);
+        return fail(ErrorCode::not_found, "domain '{}' has no grids of rain rates or reflectivity",
+                    domain);
     }
     const auto newest = cache::GridFile::open(entries->back().path);
     if (!newest) return pass_on(newest);

@@ -59,6 +59,26 @@ TEST_F(Frame, DrawsTheLatestGridAsPng) {
     EXPECT_THAT(png, ::testing::HasSubstr("2005-08-22T02:50:00Z"));
 }
 
+TEST_F(Frame, ARainTotalOfADomainIsOfTheGridsOfItsHours) {
+    using ::testing::HasSubstr;
+    const std::string rain = "--domain KBGM --product rain-total ";
+    EXPECT_EQ(run(rain + "--hours 0.1 -o " + out("a.png")), exit_done) << messages_;
+    EXPECT_THAT(testing::file_text(out("a.png")), HasSubstr("rain since 2005-08-22T02:44:00Z: 6 "));
+    EXPECT_EQ(run(rain + "--hours 0.1 --probe-at KBGM --json"), exit_done) << messages_;
+    const auto probe = nlohmann::json::parse(facts_)["probe"];
+    EXPECT_EQ(probe["unit"], "mm");
+    // 33 dBZ is 3.87 mm/h.
+    EXPECT_NEAR(probe["value"].get<double>(), 0.387, 0.01);
+    EXPECT_EQ(run(rain + "-o " + out("b.png")), exit_bad_usage);
+    EXPECT_THAT(messages_, HasSubstr("a rain-total of a domain needs --hours"));
+    EXPECT_EQ(run(rain + "--hours 25 -o " + out("b.png")), exit_bad_usage);
+    EXPECT_THAT(messages_, HasSubstr("--hours must be above 0 and at most 24, not 25"));
+    EXPECT_EQ(run("--domain KBGM --product composite --hours 1 -o " + out("b.png")),
+              exit_bad_usage);
+    EXPECT_THAT(messages_, HasSubstr("--hours is the length of a rain-total"));
+    EXPECT_FALSE(fs::exists(out("b.png")));
+}
+
 TEST_F(Frame, TheEndingOfTheOutputIsItsFormat) {
     using ::testing::HasSubstr;
     using ::testing::StartsWith;
