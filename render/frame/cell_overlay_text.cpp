@@ -11,19 +11,20 @@ std::string cells_counted(std::size_t count) {
 
 }  // namespace
 
-void add_cell_notes(const CellOverlay& overlay, Legend& legend) {
-    if (!legend.notes.empty()) legend.notes.back() += ";";
-    legend.notes.push_back(cells_counted(overlay.scan.cells.size()) + ",");
-    legend.notes.push_back(fmt::format("peaks from {:g} dBZ", overlay.method.least_peak_dbz));
+std::vector<std::string> cell_notes(const CellOverlay& overlay) {
+    std::vector<std::string> notes = {
+        cells_counted(overlay.scan.cells.size()) + ",",
+        fmt::format("peaks from {:g} dBZ", overlay.method.least_peak_dbz)};
     if (overlay.volumes == 1) {
-        legend.notes.back() += ";";
-        legend.notes.emplace_back("1 volume: no motion,");
-        legend.notes.emplace_back("no forecast");
-        return;
+        notes.back() += ";";
+        notes.emplace_back("1 volume: no motion,");
+        notes.emplace_back("no forecast");
+        return notes;
     }
-    legend.notes.push_back(fmt::format("over {} volumes;", overlay.volumes));
-    legend.notes.emplace_back("ticks: 15 to 60 min,");
-    legend.notes.emplace_back("circles: error");
+    notes.push_back(fmt::format("over {} volumes;", overlay.volumes));
+    notes.emplace_back("ticks: 15 to 60 min,");
+    notes.emplace_back("circles: error");
+    return notes;
 }
 
 std::string cells_method(const std::optional<retrieve::FreezingLevels>& freezing,

@@ -6,15 +6,16 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "render/map/legend.h"
 #include "stormcellar/render/overlays.h"
 
 namespace stormcellar::render {
 
-// Adds notes to a legend: the number of cells, the least peak, and the number of volumes through
-// which they were followed. One volume shows no motion, so the notes say that there is no forecast.
-void add_cell_notes(const CellOverlay& overlay, Legend& legend);
+// Returns short lines for the labels: the number of cells, the least peak, and the number of
+// volumes through which they were followed. One volume shows no motion, so the lines say that there
+// is no forecast.
+[[nodiscard]] std::vector<std::string> cell_notes(const CellOverlay& overlay);
 
 // Returns the same with the whole method, for the metadata of a picture.
 [[nodiscard]] std::string cells_sentence(const CellOverlay& overlay);

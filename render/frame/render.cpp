@@ -63,7 +63,7 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     if (!fonts) return pass_on(fonts);
     DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
     if (overlays.rotation != nullptr) add_rotation_rows(texts.legend);
-    if (overlays.cells != nullptr) add_cell_notes(*overlays.cells, texts.legend);
+    if (overlays.cells != nullptr) texts.cells = cell_notes(*overlays.cells);
     const auto sensitivity = hail_sensitivity(view, scene, threads);
     if (!sensitivity) return pass_on(sensitivity);
     texts.hail = *sensitivity;

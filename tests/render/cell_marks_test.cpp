@@ -10,6 +10,7 @@
 
 #include "render/frame/cell_overlay_text.h"
 #include "render/image/shades.h"
+#include "render/map/labels.h"
 #include "render/map/map_marks.h"
 #include "stormcellar/render/render.h"
 #include "tests/render/synthetic_storm.h"
@@ -258,19 +259,35 @@ TEST(CellMarks, LegendAndMetadataSayHowTheCellsWereFound) {
     CellOverlay overlay;
     overlay.scan.time = start;
     overlay.scan.cells = {still_cell(0, 0, 50)};
-    Legend legend;
-    add_cell_notes(overlay, legend);
-    EXPECT_THAT(legend.notes, ElementsAre("1 storm cell,", "peaks from 41 dBZ;",
-                                          "1 volume: no motion,", "no forecast"));
+    EXPECT_THAT(cell_notes(overlay), ElementsAre("1 storm cell,", "peaks from 41 dBZ;",
+                                                 "1 volume: no motion,", "no forecast"));
     EXPECT_THAT(cells_sentence(overlay), HasSubstr("without motion and forecast"));
     overlay.volumes = 5;
     overlay.scan.freezing = retrieve::FreezingLevels{3900, 7000};
-    Legend followed;
-    add_cell_notes(overlay, followed);
-    EXPECT_THAT(followed.notes, ElementsAre("1 storm cell,", "peaks from 41 dBZ", "over 5 volumes;",
-                                            "ticks: 15 to 60 min,", "circles: error"));
+    EXPECT_THAT(cell_notes(overlay),
+                ElementsAre("1 storm cell,", "peaks from 41 dBZ", "over 5 volumes;",
+                            "ticks: 15 to 60 min,", "circles: error"));
     EXPECT_THAT(cells_sentence(overlay), HasSubstr("followed through 5 volumes"));
     EXPECT_THAT(cells_sentence(overlay), HasSubstr("0 C at 3900 m, -20 C at 7000 m"));
+}
+
+// A wide picture says so below its legend, a square one beside its product.
+TEST(CellMarks, EachShapeOfPictureSaysHowTheCellsWereFound) {
+    const FrameFacts facts{"KTLX", level2::Moment::ref, start, {}};
+    const Fonts fonts = Fonts::load().value();
+    for (const int height : {500, 800, 1400}) {
+        Scene scene;
+        scene.width = 800;
+        scene.height = height;
+        DrawnFacts texts{legend_of(scene), 50e3, std::nullopt};
+        texts.cells = {"1 storm cell,", "peaks from 41 dBZ"};
+        const auto layout = lay_out_labels(fonts, scene, facts, texts);
+        ASSERT_TRUE(layout);
+        const bool says_it = std::ranges::any_of(layout->texts, [](const LabelText& text) {
+            return text.text.find("peaks from 41 dBZ") != std::string::npos;
+        });
+        EXPECT_TRUE(says_it) << height;
+    }
 }
 
 // A picture without labels has the marks, but no letters.
