@@ -41,9 +41,9 @@ struct DrawnFacts {
     Legend legend;
     double ring_spacing_m = 50e3;  // the spacing that is drawn
     std::optional<Coverage> coverage;
-    std::string sweep = {};               // for a ppi: the line about the sweep
-    std::vector<std::string> cells = {};  // lines about storm cells that are marked
-    std::string hail = {};  // the error of the largest hail (render/frame/hail_text.h)
+    std::string sweep = {};  // for a ppi: the line about the sweep
+    std::string hail = {};   // the error of the largest hail (render/frame/hail_text.h)
+    std::vector<std::string> cells = {};  // lines about the storm cells that are marked
 };
 
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.
