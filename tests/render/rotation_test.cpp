@@ -138,7 +138,8 @@ TEST(Rotation, APictureShowsEachColumnInItsColor) {
     scene.camera.tilt_deg = 60;
     const FrameFacts facts{"KTLX", Moment::ref, {}, {{"KTLX", 35, -97, 400}}};
     const grid::BrickView rotation = columns.view();
-    const Image with = render_frame(echo.view(), facts, scene, 2, nullptr, {.rotation = &rotation}).value();
+    const Image with =
+        render_frame(echo.view(), facts, scene, 2, nullptr, {.rotation = &rotation}).value();
     const Image without = render_frame(echo.view(), facts, scene, 2).value();
     int west = 0, east = 0, wrong = 0;
     for (int y = 0; y < 200; ++y) {
