@@ -36,7 +36,7 @@ struct FrameFacts {
     std::string dealiasing = {};
     std::optional<UtcTime> since = {};  // the first volume of a product over time
     std::string rain = {};  // of a rain total: "180 minutes, 12 of them without volumes"; or empty
-    bool interpolated = false;          // the grid was interpolated between volumes, as requested
+    bool interpolated = false;  // the grid was interpolated between volumes, as requested
     // For a nowcast, what it is and its measured error (retrieve/nowcast/nowcast_note.h); else
     // empty.
     std::string nowcast = {};

@@ -57,8 +57,9 @@ export class Keys {
         for (const event of early) this.press(event);
     }
 
-    // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click. Buttons,
-    // checkboxes and sliders keep only the keys that they use. Other controls keep all keys, so that a user can type.
+    // Handles keys while the picture has the focus or nothing has it, so that keys work before the first click.
+    // Buttons, checkboxes and sliders keep only the keys that they use. Other controls keep all keys, so that a user
+    // can type.
     begin(): void {
         document.addEventListener('keydown', (event) => {
             const { target } = event;

@@ -86,7 +86,8 @@ export class GridTextures {
         };
     }
 
-    // Copies bricks into the atlas of the shown grid. `texels` has the bricks of the slots that are not -1, in their order.
+    // Copies bricks into the atlas of the shown grid. `texels` has the bricks of the slots that are not -1, in their
+    // order.
     putBricks(slots: Int32Array, texels: Uint8Array): void {
         const gl = this.gl;
         if (!this.shown) return;
