@@ -18,42 +18,56 @@ using level2::Moment;
 
 constexpr float no_kdp = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the correlation coefficients at the gates of a row of phases; empty without any.
-std::vector<float> correlations_at(const GateField& phases, const GateField& correlations,
-                                   std::size_t radial) {
-    if (correlations.is_empty()) return {};
-    std::vector<float> found(phases.gates, no_kdp);
-    for (std::size_t gate = 0; gate < phases.gates; ++gate) {
-        const std::int32_t there = correlations.gate_at(phases.range_m(gate));
-        if (there >= 0) found[gate] = correlations.value(radial, static_cast<std::size_t>(there));
+// Computes KDP of one moment of a sweep, radial by radial.
+class KdpMaker {
+  public:
+    // Without correlations, the field is empty.
+    KdpMaker(const GateField& phases, const GateField& correlations)
+        : phases_(phases), correlations_(correlations), fitter_(phases.gate_spacing_m) {
+        if (correlations.is_empty()) return;
+        gates_there_.resize(phases.gates);
+        for (std::size_t gate = 0; gate < phases.gates; ++gate)
+            gates_there_[gate] = correlations.gate_at(phases.range_m(gate));
     }
-    return found;
-}
 
-// Fits the gates up to the last one with a phase, and keeps those that have one.
-void fit_radial(const GateField& phases, const GateField& correlations, std::size_t radial,
-                SweepKdp& made) {
-    const std::uint16_t* codes = phases.row(radial);
-    std::size_t gates = phases.gates;
-    while (gates > 0 && codes[gates - 1] == 0)
-        --gates;
-    if (gates == 0) return;
-    std::vector<float> values(gates);
-    for (std::size_t gate = 0; gate < gates; ++gate)
-        values[gate] = phases.value(radial, gate);
-    std::vector<float> known = correlations_at(phases, correlations, radial);
-    if (!known.empty()) known.resize(gates);
-    PhaseRow row = unfold_phases(values, known);
-    leave_out_backscatter(row, phases.gate_spacing_m);
-    const PhaseSlopes slopes = fit_slopes(row, phases.gate_spacing_m);
-    const auto per_gate_both_ways = static_cast<float>(2 * phases.gate_spacing_m / 1000);
-    for (std::size_t gate = 0; gate < gates; ++gate) {
-        if (codes[gate] == 0) continue;
-        const std::size_t at = radial * phases.gates + gate;
-        made.deg_per_km[at] = slopes.deg_per_gate[gate] / per_gate_both_ways;
-        made.error_deg_per_km[at] = slopes.error[gate] / per_gate_both_ways;
+    // Fits the gates up to the last one with a phase, and keeps those that have one.
+    void fit(std::size_t radial, SweepKdp& made) {
+        const std::size_t gates = phases_.ends[radial];
+        if (gates == 0) return;
+        values_.resize(gates);
+        for (std::size_t gate = 0; gate < gates; ++gate)
+            values_[gate] = phases_.value(radial, gate);
+        find_correlations(radial, gates);
+        PhaseRow row = unfold_phases(values_, known_);
+        const PhaseSlopes& slopes = fitter_.fit(row);
+        const auto per_gate_both_ways = static_cast<float>(2 * phases_.gate_spacing_m / 1000);
+        const std::uint16_t* codes = phases_.row(radial);
+        for (std::size_t gate = 0; gate < gates; ++gate) {
+            if (codes[gate] == 0) continue;
+            const std::size_t at = radial * phases_.gates + gate;
+            made.deg_per_km[at] = slopes.deg_per_gate[gate] / per_gate_both_ways;
+            made.error_deg_per_km[at] = slopes.error[gate] / per_gate_both_ways;
+        }
     }
-}
+
+  private:
+    // Finds the correlation coefficients at the gates; none without any.
+    void find_correlations(std::size_t radial, std::size_t gates) {
+        if (correlations_.is_empty()) return;
+        known_.resize(gates);
+        for (std::size_t gate = 0; gate < gates; ++gate) {
+            const std::int32_t there = gates_there_[gate];
+            known_[gate] =
+                there >= 0 ? correlations_.value(radial, static_cast<std::size_t>(there)) : no_kdp;
+        }
+    }
+
+    const GateField& phases_;
+    const GateField& correlations_;
+    SlopeFitter fitter_;
+    std::vector<std::int32_t> gates_there_;  // of the correlations; -1 for none
+    std::vector<float> values_, known_;      // of one radial
+};
 
 }  // namespace
 
@@ -69,8 +83,9 @@ std::vector<SweepKdp> specific_differential_phases(const level2::Volume& volume)
             if (phases.is_empty()) continue;
             SweepKdp made{number, moment, std::vector<float>(phases.codes.size(), no_kdp),
                           std::vector<float>(phases.codes.size(), no_kdp)};
+            KdpMaker maker(phases, correlations);
             for (std::size_t radial = 0; radial < phases.radials; ++radial)
-                fit_radial(phases, correlations, radial, made);
+                maker.fit(radial, made);
             all.push_back(std::move(made));
         }
     }

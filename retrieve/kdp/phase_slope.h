@@ -5,16 +5,20 @@
 // in a shorter one by more than their errors allow (intersection of confidence intervals:
 // Goldenshluger and Nemirovski 1997, Katkovnik 1999). The slope is the mean of all windows that
 // agree, and those about the gate weigh most. So the windows are long where the phase changes
-// evenly, as in weak rain, and short beside the edges of a core.
+// evenly, as in weak rain, and short beside the edges of a core. At gates where the phase is a line
+// in most windows of the greatest length, long windows weigh most, which halves the error.
 //
 // Units     Degrees and gates.
 // Accuracy  include/stormcellar/retrieve/kdp.h.
-// Threads   Pure functions.
+// Threads   One thread at a time.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "retrieve/kdp/line_sums.h"
 #include "retrieve/kdp/phase_row.h"
+#include "retrieve/kdp/window_slopes.h"
 
 namespace stormcellar::retrieve {
 
@@ -23,11 +27,27 @@ struct PhaseSlopes {
     std::vector<float> error;         // standard error of the slope; NaN likewise
 };
 
-// Takes backscatter phase out of the good gates: up to 3 km of gates that leave a line on which
-// their neighbors on both sides stay.
-void leave_out_backscatter(PhaseRow& row, double spacing_m);
+// Fits the slopes of one radial after another, and uses the memory of the last one again.
+class SlopeFitter {
+  public:
+    explicit SlopeFitter(double spacing_m);
 
-// Fits slopes at the gates that have a phase.
-[[nodiscard]] PhaseSlopes fit_slopes(const PhaseRow& row, double spacing_m);
+    // Takes backscatter phase out of the good gates, and fits slopes at the gates that have a
+    // phase. The row must have gates. The result is valid until the next call.
+    const PhaseSlopes& fit(PhaseRow& row);
+
+  private:
+    void read(const PhaseRow& row);
+    [[nodiscard]] bool leave_out_backscatter(PhaseRow& row) const;
+    void extend_noise();
+
+    double spacing_m_;
+    std::ptrdiff_t reach_;  // gates of the longest window
+    RowSums sums_;
+    std::vector<double> noise_deg_;
+    std::vector<WindowSlopes> lengths_;
+    SlopeSums means_;
+    PhaseSlopes slopes_;
+};
 
 }  // namespace stormcellar::retrieve
