@@ -236,6 +236,9 @@ test.describe('a silent radar', () => {
     await says.live();
     await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText(`${station} is silent: nothing came for 14 min`);
+    await expect(viewer.byId('follow')).toHaveText('Feed silent for 14 min');
+    await expect(viewer.byId('follow')).toHaveAttribute('data-health', 'silent');
+    await expect(viewer.byId('follow')).toHaveAttribute('aria-pressed', 'false');
     await says.live(false);
     await tell(relay, 'station_spoke', { station });
     await says.nothing();

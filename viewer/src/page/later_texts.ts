@@ -50,6 +50,18 @@ export const panelTexts = {
     noNetcdf: 'A merged region or an interpolated frame cannot be downloaded as netCDF.',
     close: 'Close',
     help: 'Keys',
+    scan: {
+        title: 'Cuts of the scan',
+        pattern: (vcp: number) => `Pattern ${vcp}`,
+        complete: (cuts: number) => `complete, ${cuts} cuts`,
+        ended: (cuts: number, highest: string) => `the file ends after ${cuts} cuts, up to ${highest}°`,
+        inProgress: (cuts: number, usual: number | null, highest: string) =>
+            `scan in progress: ${cuts}${usual === null ? '' : ` of ${usual}`} cuts, up to ${highest}°`,
+        head: ['Tilt', '', 'UTC', 'Nyquist', 'Moments'],
+        none: 'The server does not have the cuts of this volume.',
+        several: 'Several radars are merged here. Choose one of them to see its cuts.',
+        between: 'This frame is interpolated. It is no scan.',
+    },
     // Keys and gestures, in groups with a title.
     keys: [
         [
@@ -115,6 +127,7 @@ export const panelTexts = {
         'to-map': 'Map of all radars (H)',
         open: 'Colors, opacity, camera, units, tools',
         'layers-open': 'What is drawn: volume, sections, tilts, storms',
+        'scan-open': 'Cuts of this scan: angle, time, Nyquist velocity, moments, progress',
         play: 'Play or pause the loop (Space)',
         follow: 'Show each new sweep as it comes (L)',
         'loop-from': 'Begin the loop at the shown time (<)',

@@ -4,7 +4,7 @@
 import { isAhead } from '../time/timeline';
 import { CellState, LeftOutEcho } from '../wire/packed_grid';
 
-function span(seconds: number): string {
+export function span(seconds: number): string {
     const [minutes, hours] = [seconds / 60, seconds / 3600];
     return minutes < 90 ? `${Math.max(0, Math.round(minutes))} min` : `${Math.round(hours)} h`;
 }
@@ -78,8 +78,14 @@ export const texts = {
         `The server has no grids of ${moment} here. The layer "Radar tilt" can show dealiased sweeps.`,
     time: 'Time',
     latest: 'Newest',
+    health: {
+        old: (name: string, age: string) => `${name}, ${age} old`,
+        silent: (time: string) => `Feed silent for ${time}`,
+        noServer: 'Server silent',
+    },
     live: 'Live',
     settings: 'Settings',
+    scan: 'Scan',
     play: 'Play',
     pause: 'Pause',
     earlier: 'Earlier volume',
@@ -106,7 +112,12 @@ export const texts = {
         aloft: 'lowest beam above 3 km',
         heights: (times: number) => `heights\u00a0×\u00a0${times}`,
     },
-    partial: 'Partial volume',
+    // Tells why a volume is not complete; `tilts` is null if the number of its tilts is unknown.
+    partial: (isNew: boolean, tilts: { count: number; highestDeg: number } | null) => {
+        if (isNew)
+            return `Scan in progress${tilts ? `: ${tilts.count} tilts, up to ${tilts.highestDeg.toFixed(1)}°` : ''}`;
+        return tilts ? `File ends after ${tilts.count} tilts` : 'File ends early';
+    },
     held: (bytes: number, most: number) => `Memory: ${Math.round(bytes / 2 ** 20)} of ${most / 2 ** 20} MiB`,
     surfaceLeftOut: 'not shown: this grid is too large for the surface of another moment',
     detailOfLayers: (halvings: number) => (halvings > 0 ? `layers: ${greatestOf(halvings)}` : ''),

@@ -262,7 +262,14 @@ export interface SweepRow {
     sweep: number; // number of the sweep, from 0
     elevation_deg: number;
     start?: string;
+    end?: string;
+    nyquist_mps?: number;
     moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` draws this cut of its elevation
+}
+export interface VolumeRow {
+    vcp?: number | null; // number of the scan pattern
+    sweeps: number;
+    complete: boolean;
 }
 const volumesPath = (station: string): string => `api/v1/stations/${encodeURIComponent(station)}/volumes`;
 
@@ -294,6 +301,11 @@ export async function rawAt(station: string, time: string): Promise<RawVolume | 
     return volume?.time && volume.raw && Math.abs(Date.parse(volume.time) - Date.parse(time)) <= sameVolumeMs
         ? volume
         : null;
+}
+// Returns the volume of a station that began at a time or before, after the volume before it.
+export async function volumesUntil(station: string, time: string): Promise<VolumeRow[]> {
+    const query = new URLSearchParams({ to: time, limit: '2' });
+    return (await told<{ volumes: VolumeRow[] }>(`${volumesPath(station)}?${query}`)).volumes;
 }
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return (await told<{ sweeps: SweepRow[] }>(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).sweeps;

@@ -1,13 +1,13 @@
 // Fills the head of the page: domains, title and messages.
 
-import { toleratedFutureMs } from '../../time/timeline';
-import { Region, isRegion } from '../../wire/api';
+import { GridFacts, Region, isRegion } from '../../wire/api';
 import { isMoment, momentFacts, titleOf } from '../../wire/moments';
 import { echoLayers, sweepMoment } from '../../scene/layers';
 import { App } from '../app';
 import { Drawing } from '../drawing';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
+import { healthOf } from '../health';
 import { newsS, texts } from '../texts';
 import { addMoments } from './moment_choice';
 
@@ -21,10 +21,19 @@ function putDomains(app: App): void {
     );
 }
 
-const liveS = 30 * 60; // no radar takes so long from one volume to the next
 const againAfterMs = 20_000; // between updates of ages
 
-function putTitle(app: App): void {
+const scanS = 15 * 60; // no scan takes longer
+const earlyMs = 15_000; // the first sweep may begin before the time of its volume
+
+// Returns how many tilts a volume has. Leaves out sweeps of the volume before, which fill a growing grid.
+function tiltsOf(facts: GridFacts | null, timeMs: number): { count: number; highestDeg: number } | null {
+    const own = facts?.provenance.sweeps.filter(({ start }) => Date.parse(start) >= timeMs - earlyMs) ?? [];
+    const angles = [...new Set(own.map((one) => one.elevation_deg.toFixed(1)))].map(Number);
+    return angles.length === 0 ? null : { count: angles.length, highestDeg: Math.max(...angles) };
+}
+
+function putTitle(app: App, facts: FactsOfShown): void {
     const { shown } = app;
     if (!shown || app.isOnMap) return;
     const { domain } = shown;
@@ -39,7 +48,11 @@ function putTitle(app: App): void {
         .replace('T', ' ')
         .replace(/\.\d+Z/, ' UTC');
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
-    const notes = [titleOf(moment), grid.isPartial ? texts.partial : '', shown.isBetween ? texts.isBetween : ''];
+    const notes = [
+        titleOf(moment),
+        grid.isPartial ? texts.partial(ageS < scanS, tiltsOf(facts.known, grid.timeMs)) : '',
+        shown.isBetween ? texts.isBetween : '',
+    ];
     // Put the age into a span of its own, which a saved picture leaves out.
     const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS, '')}` : '');
     element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
@@ -49,11 +62,10 @@ function putTitle(app: App): void {
 // Shows problems of the server, of radars and of the request until they are over.
 function putNotice(app: App): void {
     const sites = app.shown?.loaded.grid.sites.map((site) => site.icao) ?? [];
-    const silent = sites.flatMap((site) => {
-        const sinceMs = app.server.silentSince.get(site);
-        const ageS = sinceMs === undefined ? Infinity : (app.server.nowMs - sinceMs) / 1000;
-        return ageS < newsS ? [texts.notice.silent(site, ageS)] : [];
-    });
+    const silences = sites
+        .map((site) => ({ site, silentS: (app.server.nowMs - (app.server.silentSince.get(site) ?? -Infinity)) / 1000 }))
+        .filter(({ silentS }) => silentS < newsS);
+    const silent = silences.map(({ site, silentS }) => texts.notice.silent(site, silentS));
     const text = [
         app.isGraphicsLost ? texts.notice.noGraphics : '',
         app.server.isCutOff ? texts.notice.noServer : '',
@@ -65,10 +77,12 @@ function putNotice(app: App): void {
     for (const id of ['notice', 'start-notice']) if (element(id).textContent !== text) element(id).textContent = text;
     document.documentElement.classList.toggle('lost', app.isGraphicsLost);
     element('reload').hidden = !app.isGraphicsLost;
-    press('follow', app.player.follows && !app.server.isCutOff && silent.length === 0);
-    const ageMs = app.server.nowMs - Date.parse(app.timeline.newest ?? '');
-    const isLive = ageMs >= -toleratedFutureMs && ageMs < 1000 * liveS;
-    element('follow').textContent = isLive ? texts.live : texts.latest;
+    const ageS = (app.server.nowMs - Date.parse(app.timeline.newest ?? '')) / 1000;
+    const silentS = silences.length > 0 ? Math.max(...silences.map((one) => one.silentS)) : null;
+    const { level, text: told } = healthOf(ageS, silentS, app.server.isCutOff);
+    press('follow', app.player.follows && level !== 'silent');
+    element('follow').dataset['health'] = level;
+    if (element('follow').textContent !== told) element('follow').textContent = told;
 }
 
 // Shows when each site of a region was seen, and why other sites are not in the picture.
@@ -118,10 +132,18 @@ export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): voi
         );
     window.setInterval(() => {
         askSites();
-        putTitle(app);
+        putTitle(app, facts);
         putNotice(app);
     }, againAfterMs);
-    app.on(['shown', 'view'], () => putTitle(app));
+    app.on(['shown', 'view'], () => putTitle(app, facts));
+    app.on('shown', () => {
+        // Only the facts tell the tilts of an incomplete volume.
+        if (app.shown?.loaded.grid.isPartial && !isRegion(app.shown.domain))
+            facts.ask().then(
+                () => putTitle(app, facts),
+                () => undefined,
+            );
+    });
     app.on(['view', 'shown', 'choices', 'units'], () => putLayers(drawing));
     drawing.layers.layerCame.push(() => putLayers(drawing));
     app.on('shown', () => {

@@ -14,6 +14,7 @@ import { Hover } from './hover';
 import { LayersPanel } from './layers_panel';
 import { addLook } from './look';
 import { Reader } from './reader';
+import { ScanPanel } from './scan_panel';
 import { addShare } from './share';
 import { ToolsPanel } from './tools';
 import { addUnits } from './unit_choice';
@@ -37,6 +38,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     hover.begin();
     new ToolsPanel(app, drawing, pointers, facts).begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);
+    new ScanPanel(app, drawing).begin(keys);
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;

@@ -1,4 +1,4 @@
-// Adds the buttons that open settings and layers. Loads the program of panels, tools and readings once the first
+// Adds the buttons that open settings, layers and the cuts of the scan. Loads the program of panels, tools and readings once the first
 // picture is there, or when the user asks for one of them earlier.
 
 import { button, element } from '../dom';
@@ -14,10 +14,18 @@ export function addPanels(parts: PageParts): void {
     settings.textContent = texts.settings;
     settings.setAttribute('aria-expanded', 'false');
     const early: HTMLElement[] = []; // buttons that were pressed before the program came
-    const layers = button('layers-open', texts.layers.title, () => undefined);
-    layers.setAttribute('aria-controls', 'layers');
-    layers.setAttribute('aria-expanded', 'false');
-    settings.after(layers);
+    const [layers, scan] = (
+        [
+            ['layers', texts.layers.title],
+            ['scan', texts.scan],
+        ] as const
+    ).map(([id, text]) => {
+        const opener = button(`${id}-open`, text, () => undefined);
+        opener.setAttribute('aria-controls', id);
+        opener.setAttribute('aria-expanded', 'false');
+        return opener;
+    }) as [HTMLButtonElement, HTMLButtonElement];
+    settings.after(layers, scan);
     let loading: Promise<void> | null = null;
     let isLoaded = false;
     const load = async (): Promise<void> => {
@@ -36,7 +44,7 @@ export function addPanels(parts: PageParts): void {
             app.fail(error);
         });
     };
-    for (const opener of [settings, layers])
+    for (const opener of [settings, layers, scan])
         opener.addEventListener('click', () => {
             if (isLoaded) return;
             early.push(opener);

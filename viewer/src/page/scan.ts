@@ -1,0 +1,47 @@
+// Tells the cuts of a volume scan, and how far the scan is.
+
+import { SweepRow, VolumeRow } from '../wire/api';
+import { isMoment, momentFacts } from '../wire/moments';
+import { kindOf } from '../fields/sweep_choice';
+import { panelTexts } from './later_texts';
+import { texts } from './texts';
+
+const risingS = 600; // a scan without a new cut for this time has ended
+
+// Returns the cells of a cut's row: angle, kind, time, Nyquist velocity and measured moments. `speedText` adds a unit to m/s.
+export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: number) => string): string[] {
+    const kind = kindOf(row, rows);
+    const measured = row.moments
+        .map(({ moment }) => moment)
+        .filter((one) => !isMoment(one) || !momentFacts(one).isDerived);
+    return [
+        `${row.elevation_deg.toFixed(1)}°`,
+        kind === '' ? '' : texts.layers.kinds[kind],
+        row.start?.slice(11, 19) ?? '',
+        row.nyquist_mps === undefined ? '' : speedText(row.nyquist_mps),
+        measured.join(' '),
+    ];
+}
+
+export interface Progress {
+    text: string;
+    share: number | null; // part of the scan that is done; null if the number of its cuts is unknown
+}
+
+// Returns how far a scan is. `volumes` are the scan and the one before it, oldest first. A scan usually has as many
+// cuts as the last complete scan of the same pattern.
+export function progressOf(rows: SweepRow[], volumes: VolumeRow[], nowMs: number): Progress {
+    const words = panelTexts.scan;
+    const own = volumes[volumes.length - 1];
+    const pattern = own?.vcp ? words.pattern(own.vcp) : '';
+    const highest = Math.max(0, ...rows.map((row) => row.elevation_deg)).toFixed(1);
+    const told = (text: string, share: number | null) => ({ text: [pattern, text].filter(Boolean).join(' · '), share });
+    if (own?.complete !== false) return told(words.complete(rows.length), 1);
+    const last = Math.max(...rows.map((row) => Date.parse(row.end ?? row.start ?? '') || 0));
+    if (nowMs - last > 1000 * risingS) return told(words.ended(rows.length, highest), null);
+    const before = volumes.find((one) => one !== own && one.vcp === own.vcp && one.complete);
+    return told(
+        words.inProgress(rows.length, before?.sweeps ?? null, highest),
+        before ? Math.min(1, rows.length / before.sweeps) : null,
+    );
+}
