@@ -161,8 +161,8 @@ void lay_out_band(LabelBuilder& builder, const Legend& legend, const Rect& band,
         lower.notes = legend.notes;
         upper.rows.assign(legend.rows.begin(), middle);
         lower.rows.assign(middle, legend.rows.end());
-        lay_out_line(builder, upper, band, baseline);
-        lay_out_line(builder, lower, band, baseline + builder.scaled(18));
+        lay_out_line(builder, upper, band, baseline + builder.scaled(10));
+        lay_out_line(builder, lower, band, baseline + builder.scaled(28));
         return;
     }
     lay_out_line(builder, legend, band, baseline + builder.scaled(18));
