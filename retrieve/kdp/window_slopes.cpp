@@ -42,18 +42,19 @@ void fit_windows(const RowSums& sums, const double* HWY_RESTRICT noise, const Wi
         const auto scale = hn::Div(one, hn::Sqrt(spread));
         const auto noise_deg = hn::LoadU(d, noise + i);
         const auto error = hn::DemoteTo(f, hn::Mul(noise_deg, scale));
-        const auto fit = hn::DemoteTo(f, hn::Mul(hn::Max(noise_deg, residual), scale));
+        const auto fit = hn::Mul(hn::Max(noise_deg, residual), scale);
+        // Divide in whole vectors: the unused lanes of a part are 0 and would raise a trap.
+        const auto known = hn::IfThenElseZero(has_slope, hn::Div(one, hn::Mul(fit, fit)));
+        const auto precision = hn::DemoteTo(f, known);
         const auto of_window = hn::DemoteTo(f, slope);
 
         // Windows without a slope contradict no other window, and weigh nothing.
         const auto valid = hn::Ne(hn::DemoteTo(f, hn::IfThenElseZero(has_slope, one)), hn::Zero(f));
         const auto wide = hn::Mul(hn::Set(f, rule.confidence), error);
-        const auto squared = hn::Mul(fit, fit);
-        const auto precision = hn::IfThenElseZero(valid, hn::Div(hn::Set(f, 1.0F), squared));
         const auto most = hn::Mul(hn::Set(d, rule.most_residual), noise_deg);
         const auto score = hn::IfThenElse(hn::Le(residual, most), one, hn::Set(d, -2.0));
         hn::StoreU(of_window, f, windows.slope.data() + i);
-        hn::StoreU(fit, f, windows.fit_error.data() + i);
+        hn::StoreU(hn::DemoteTo(f, fit), f, windows.fit_error.data() + i);
         hn::StoreU(hn::IfThenElse(valid, hn::Sub(of_window, wide), hn::Neg(infinity)), f,
                    windows.low.data() + i);
         hn::StoreU(hn::IfThenElse(valid, hn::Add(of_window, wide), infinity), f,

@@ -58,7 +58,7 @@ TEST(WindowSlopes, SumsOfRangesAreThoseOfTheirGoodGates) {
 }
 
 struct OneSlope {
-    float slope = 0, error = 0, fit_error = 0;  // no slope if the error is 0
+    float slope = 0, error = 0, fit_error = 0, precision = 0;  // no slope if the error is 0
     bool is_line = false;
 };
 
@@ -74,8 +74,9 @@ OneSlope slope_in(const RowSums& sums, const std::vector<double>& noise, std::pt
     const auto middle = std::clamp<std::ptrdiff_t>(begin + gates / 2, 0, last);
     const double noise_deg = noise[static_cast<std::size_t>(middle)];
     const double scale = 1 / std::sqrt(line->spread), left = residual_deg(of_window, *line);
+    const double fit = std::max(noise_deg, left) * scale;
     return {static_cast<float>(line->slope), static_cast<float>(noise_deg * scale),
-            static_cast<float>(std::max(noise_deg, left) * scale), left <= 1.5 * noise_deg};
+            static_cast<float>(fit), static_cast<float>(1 / (fit * fit)), left <= 1.5 * noise_deg};
 }
 
 struct MeanByWindow {
@@ -102,8 +103,7 @@ struct MeanByWindow {
             high = std::min(high, one.slope + 2.3F * one.error);
             if (low > high) return;
             const float share = 2 * part == eighths ? 1 : 0.1F;
-            const float precision = 1 / (one.fit_error * one.fit_error);
-            const float own = share * (is_even ? precision : precision * one.error);
+            const float own = share * (is_even ? one.precision : one.precision * one.error);
             weight += own;
             slope += own * one.slope;
             square += own * one.slope * one.slope;
