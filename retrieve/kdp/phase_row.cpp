@@ -20,7 +20,7 @@ constexpr double least_noise_deg = 0.1, unknown_noise_deg = 5;
 bool is_candidate(std::span<const float> phases, std::span<const float> correlations,
                   std::size_t gate) {
     if (!std::isfinite(phases[gate])) return false;
-    return correlations.empty() || correlations[gate] >= least_correlation;
+    return correlations.empty() || std::isgreaterequal(correlations[gate], least_correlation);
 }
 
 // Returns how far apart two phases are on the circle.
