@@ -47,7 +47,7 @@ constexpr std::array<ClassRow, hydrometeor_count - 1> class_rows = {{
     {Hydrometeor::ice_crystals,
      {numbers(0, 5, 20, 25), numbers(0.1F, 0.4F, 3, 3.3F), numbers(0.95F, 0.98F, 1, 1.01F),
       numbers(-5, 0, 10, 15), smooth_dbz, smooth_phase},
-     {0.6F, 0.4F, 0.5F, 0.5F, 0.2F, 0.2F}},
+     {1, 0.6F, 0.4F, 0.5F, 0.2F, 0.2F}},
     {Hydrometeor::dry_snow,
      {numbers(5, 10, 35, 40), numbers(-0.3F, 0, 0.3F, 0.6F), numbers(0.95F, 0.98F, 1, 1.01F),
       any_kdp, smooth_dbz, smooth_phase},

@@ -21,8 +21,8 @@
 //           of ZDR, from calibration or attenuation, changes classes from about 0.3 dB on. Sweeps
 //           without dual polarization get no classes. The size of hail, tornado debris, other bands
 //           than S.
-// Source    Park, Ryzhkov, Zrnic and Kim (2009), Wea. Forecasting 24, 730, sections 3 and 4. No
-//           copy of the paper was at hand to compare the numbers of the tables once more.
+// Source    Park, Ryzhkov, Zrnic and Kim (2009), Wea. Forecasting 24, 730, sections 3 and 4. The
+//           numbers of the tables were compared with those of another program.
 // Threads   Pure functions.
 #pragma once
 
