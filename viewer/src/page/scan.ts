@@ -8,7 +8,8 @@ import { texts } from './texts';
 
 const risingS = 600; // a scan without a new cut for this time has ended
 
-// Returns the cells of a cut's row: angle, kind, time, Nyquist velocity and measured moments. `speedText` adds a unit to m/s.
+// Returns the cells of a cut's row: angle, kind, time, Nyquist velocity and measured moments. `speedText` adds a unit
+// to m/s.
 export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: number) => string): string[] {
     const kind = kindOf(row, rows);
     const measured = row.moments

@@ -1,5 +1,5 @@
-// Adds the buttons that open settings, layers and the cuts of the scan. Loads the program of panels, tools and readings once the first
-// picture is there, or when the user asks for one of them earlier.
+// Adds the buttons that open settings, layers and the cuts of the scan. Loads the program of panels, tools and readings
+// once the first picture is there, or when the user asks for one of them earlier.
 
 import { button, element } from '../dom';
 import { laterProgram } from '../later_program';
