@@ -237,4 +237,15 @@ test.describe('sharing', { tag: '@full' }, () => {
       expect(text).toContain(part);
     }
   });
+
+  // A page of another site shows the viewer in a frame (`[web] embed_in`).
+  test('an embedded page has the picture without controls', async ({ page, viewer, server: { station } }) => {
+    await page.goto(`${viewer.address}/view/?embed=1#domain=${station}&moment=REF`);
+    await viewer.drawn();
+    expect(await page.locator('button:visible, select:visible, input:visible').count()).toBe(0);
+    await expect(page.locator('#title')).toBeVisible();
+    await expect(page.locator('#picture')).toBeVisible();
+    await viewer.open(`domain=${station}&moment=REF`);
+    expect(await page.locator('button:visible').count(), 'controls of the page itself').toBeGreaterThan(5);
+  });
 });

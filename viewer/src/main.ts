@@ -20,6 +20,8 @@ import { Renderer } from './renderer/renderer';
 import { stateOf } from './scene/view_state';
 
 function begin(): void {
+    // A page that shows the viewer in a frame may hide its controls: /view/?embed=1#...
+    document.body.classList.toggle('embedded', new URLSearchParams(location.search).get('embed') === '1');
     const picture = element<HTMLCanvasElement>('picture');
     const renderer = new Renderer(picture);
     const { mostTexels } = renderer;
