@@ -22,6 +22,7 @@ _MOMENTS = {
     "VELD": ("VRADDH", "radial_velocity_of_scatterers_away_from_instrument_h", "Dealiased radial velocity H",
              "meters per seconds"),
 }
+MOMENT_NAMES = {moment: names[0] for moment, names in _MOMENTS.items()}
 _STATES = {"flag_values": np.array([int(state) for state in State], "u1"),
            "flag_meanings": " ".join(state.name for state in State)}
 

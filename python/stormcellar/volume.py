@@ -176,6 +176,12 @@ class Volume:
         derived._take(pointer)
         return derived
 
+    def to_pyart(self):
+        """Returns the volume as a pyart.core.Radar (pyart_radar.to_pyart)."""
+        from .pyart_radar import to_pyart
+
+        return to_pyart(self)
+
     def __repr__(self):
         return f"<Volume {self.station} {self.start}, {len(self.sweeps)} sweeps>"
 
