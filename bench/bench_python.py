@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Times the Python package beside other readers of Level II, in one run on one thread.
 
-usage: bench_python.py [--runs 5] [--data DIR] [FILE ...]
+usage: bench_python.py [--runs 5] [--data DIR] [--all] [FILE ...]
 
 Needs xarray 2024.10 or later. xradar, Py-ART (arm_pyart), recast-radar, radrs and radish-rs (pip) are measured where they are
 installed. The library is the one that $STORMCELLAR_LIBRARY names. Prints the least of the runs in seconds, for the busy volume
 KLBB 2016 unless files are named, with every moment in memory:
   tree, packed   a tree of datasets with the codes of the file, or the reader's packed arrays
-  tree, float    a tree of datasets with values
+  tree, float    a tree of datasets with values; ours also with states
   grid           512 x 512 x 32 cells of reflectivity from a volume in memory
-Then it prints how many real files each reader opens as a tree. Exits with 1 if ours is not the fastest in a row.
+With --all it also prints how many real files each reader opens as a tree. Exits with 1 if ours is not the fastest in a row.
 """
 
 import argparse

@@ -31,18 +31,14 @@ Result<std::unique_ptr<stormcellar_volume>> taken(level2::Decoded decoded, int n
     for (const level2::Problem& problem : decoded.report.problems)
         handle->problems.push_back(problem.text());
     handle->is_complete = decoded.report.complete;
-    handle->volumes_in_file = 1 + static_cast<int>(decoded.report.further_volume_starts.size());
-    if (number > handle->volumes_in_file) {
-        return fail(ErrorCode::not_found, "there is no volume {}; the file has {}", number,
-                    handle->volumes_in_file);
-    }
-    if (handle->volumes_in_file == 1) {
-        handle->volume = std::move(decoded.volume);
-        return handle;
-    }
     auto volumes = level2::split_volumes(std::move(decoded));
-    handle->volume = std::move(volumes[static_cast<std::size_t>(std::max(number, 1) - 1)]);
-    // The report tells about the file, whose earlier volumes may lack something.
+    handle->volumes_in_file = static_cast<int>(volumes.size());
+    const auto index = static_cast<std::size_t>(std::max(number, 1) - 1);
+    if (index >= volumes.size())
+        return fail(ErrorCode::not_found, "there is no volume {}; the file has {}", index + 1,
+                    volumes.size());
+    handle->volume = std::move(volumes[index]);
+    // The report is about the whole file, so also check that this volume ended.
     handle->is_complete = handle->is_complete && level2::has_ended(handle->volume);
     return handle;
 }

@@ -72,8 +72,9 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     const bool created = fs::create_directories(directory, error);
     if (error) return fail(ErrorCode::io, "{}: {}", directory.native(), error.message());
     if (created) {
-        // Sync the new directory's entry in its parent, and usually the parent's entry. SQLite
-        // syncs only the directory itself.
+        // Sync the new directory's entry in its parent, and the parent's own entry. If the path
+        // ends with a slash, the parent's entry is not synced. SQLite syncs only the directory
+        // itself.
         const fs::path parent = fs::absolute(directory).lexically_normal().parent_path();
         for (const fs::path& above : {parent, parent.parent_path()}) {
             if (Status synced = real_file_system().sync_directory(above); !synced) {
@@ -83,7 +84,7 @@ Result<CatalogWriter> CatalogWriter::open(fs::path directory, CatalogOptions opt
     }
     if (!options.drop.empty()) {
         Status written = write_drop_directory(directory, options.drop);
-        // Readers can work without this file if the disk is full.
+        // If the disk is full, continue, because readers can work without this file.
         if (!written && written.error().code != ErrorCode::no_space) return pass_on(written);
     }
     if (options.stations) {
@@ -105,8 +106,8 @@ Result<CatalogReader> CatalogReader::open(fs::path directory, std::size_t most_o
 }
 
 // Deletes the rows of the path in other databases, after the row in the database `name` was
-// written. Fails if a row that is known to exist cannot be deleted, but not if a database that may
-// have a row cannot be read.
+// written. Fails if the list of databases cannot be read, or if a row that is known to exist cannot
+// be deleted. Does not fail if a database that may have a row cannot be read.
 Status CatalogWriter::forget_elsewhere(const fs::path& path, const std::string& name) {
     const auto home = impl().homes.exchange(path, name);
     if (home && (home->empty() || *home == name)) return {};
@@ -138,8 +139,8 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!noted) {
-        // A file without a station in its name may belong to any station, so it need not wait for
-        // this database.
+        // A file in the database of unknown stations may belong to any station, so it waits for
+        // this database only if the disk is full.
         const bool is_other_trouble =
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);
@@ -217,8 +218,8 @@ Result<std::optional<bool>> CatalogReader::find_settled(const fs::path& path,
     const auto home = impl().homes.of(path);
     if (home && home->empty()) return std::optional<bool>{};
     const std::string guess = home.value_or(std::string{impl().home_of(path.native())});
-    // If the name has no station, trouble of the database of unknown stations must not concern the
-    // file.
+    // If the path names no station, do not return an error of the database of unknown stations,
+    // because the file may belong to another database.
     const bool is_its_own = home || guess != unknown_station;
     auto guessed = is_its_own ? impl().with(guess, false, ask) : impl().with_neighbor(guess, ask);
     if (guessed && guessed->has_value()) return guessed;

@@ -68,8 +68,9 @@ typedef struct stormcellar_read_options {
     const char* station;  // the station, if the file does not name it: "KTLX"; null: unknown
 } stormcellar_read_options;
 
-// Reads a volume from a file, from bytes, or from a descriptor, from its position to its end. The
-// file may be compressed. Null options are all zero. Bytes are not needed after the call.
+// Reads a volume from a file, from bytes, or from the descriptor of a regular file, from its
+// position to its end. The file may be compressed. Null options are all zero. Bytes are not needed
+// after the call.
 STORMCELLAR_API stormcellar_code stormcellar_volume_open(const char* path,
                                                          const stormcellar_read_options* options,
                                                          stormcellar_volume** volume,
@@ -179,7 +180,7 @@ STORMCELLAR_API stormcellar_code stormcellar_moment_values(const stormcellar_vol
                                                            int32_t sweep, int32_t moment,
                                                            float* values, size_t count,
                                                            stormcellar_error* error);
-// Writes the states (stormcellar_gate_state), one byte each. `count` as above.
+// Writes the states (stormcellar_gate_state), one byte each. `count` must be radials times gates.
 STORMCELLAR_API stormcellar_code stormcellar_moment_states(const stormcellar_volume* volume,
                                                            int32_t sweep, int32_t moment,
                                                            uint8_t* states, size_t count,
@@ -194,8 +195,9 @@ typedef struct stormcellar_derive_options {
 
 // Returns a copy of the volume with derived moments, named between blanks: VELD (dealiased
 // velocity), SRV (relative to a storm), AZSH (azimuthal shear), DIVG (divergence), POW (probability
-// of weather), KDP (specific differential phase), RATE (rain rate). Methods and errors:
-// docs/velocity.md, docs/quality.md, docs/storms.md. Null options are the defaults.
+// of weather), KDP (specific differential phase), RATE (rain rate), HCA (classes of hydrometeors).
+// Methods and errors: docs/velocity.md, docs/quality.md, docs/storms.md. Null options are the
+// defaults.
 STORMCELLAR_API stormcellar_code
 stormcellar_volume_derive(const stormcellar_volume* volume, const char* moments,
                           const stormcellar_derive_options* options, stormcellar_volume** derived,

@@ -80,7 +80,9 @@ Status publish_by_mqtt(const MqttAddress& address, const std::string& text,
     if (client == nullptr) return named({ErrorCode::busy, "libmosquitto cannot be started"});
     mosquitto_connect_callback_set(client.get(), &MqttDelivery::connected);
     mosquitto_publish_callback_set(client.get(), &MqttDelivery::published);
-    if (address.tls) mosquitto_int_option(client.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
+    if (address.tls &&
+        mosquitto_int_option(client.get(), MOSQ_OPT_TLS_USE_OS_CERTS, 1) != MOSQ_ERR_SUCCESS)
+        return named({ErrorCode::unsupported, "this libmosquitto has no TLS"});
     if (!options.user.empty())
         mosquitto_username_pw_set(client.get(), options.user.c_str(), options.password.c_str());
     // This does not wait for the connection, which may take minutes.

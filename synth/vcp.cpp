@@ -99,7 +99,8 @@ const PrfFacts& facts_of(const Cut& cut) {
     return prf_facts[static_cast<std::size_t>(std::clamp(number, 0, 8))];
 }
 
-// Returns the three Doppler sectors of real patterns, which begin at 30, 210 and 335 degrees.
+// Returns the bytes of the three Doppler sectors of a cut. They begin at 30, 210 and 335 degrees,
+// as in real patterns. Returns zeros if the cut has no velocity.
 std::array<std::uint8_t, 22> doppler_sectors(const Cut& cut) {
     std::array<std::uint8_t, 22> rest{};
     if (!has_velocity(cut)) return rest;

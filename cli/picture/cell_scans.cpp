@@ -37,9 +37,11 @@ Result<CellGrids> grids_of_level2(const CellInput& input, std::vector<std::strin
     return CellGrids{std::move(*grids), std::move(files)};
 }
 
-Result<CellGrids> cell_grids_of(const CellInput& input, const std::string& file) {
+// `names` are the words of the command line for the file.
+Result<CellGrids> cell_grids_of(const CellInput& input, const std::string& file,
+                                std::vector<std::string> names) {
     if (std::filesystem::path(file).extension() != grid_file_ending)
-        return grids_of_level2(input, {file});
+        return grids_of_level2(input, std::move(names));
     if (input.shear) {
         return fail(ErrorCode::bad_argument,
                     "{}: --shear takes Level II files, because a grid of reflectivity has no "
@@ -57,16 +59,24 @@ Result<CellGrids> cell_grids_of(const CellInput& input, const std::string& file)
     return grids;
 }
 
-// Makes the grids of each file. If each file is of another radar, makes one mosaic of all.
-Result<std::vector<CellGrids>> cell_grids_of_files(const CellInput& input) {
+// Makes the grids of each file. If each file is of another radar, makes one mosaic of all. `typed`
+// are the words of the command line, of which a single file may need all: the names of its chunks.
+Result<std::vector<CellGrids>> cell_grids_of_files(const CellInput& input, const InputFiles& inputs,
+                                                   const std::vector<std::string>& typed) {
     std::vector<CellGrids> all;
     std::set<std::string> areas;
     for (const std::string& file : input.grid.files) {
-        auto grids = cell_grids_of(input, file);
+        const bool is_single = input.grid.files.size() == 1;
+        auto grids = cell_grids_of(input, file, is_single ? typed : std::vector{file});
+        if (!grids && inputs.is_found(file) && is_no_volume(grids.error())) {
+            print_note("left out: " + grids.error().message);
+            continue;
+        }
         if (!grids) return pass_on(grids);
         areas.insert(grids->reflectivity().name());
         all.push_back(std::move(*grids));
     }
+    if (areas.empty()) return fail(ErrorCode::not_found, "none of the files is a volume");
     if (areas.size() == 1) return all;
     if (areas.size() < all.size()) {
         return fail(ErrorCode::bad_argument,
@@ -106,17 +116,38 @@ Result<retrieve::CellScan> scan_grid(const PictureGrid& reflectivity, const Pict
     return scan;
 }
 
+namespace {
+
+// Makes the grids of the files that the input names, in the order of their times.
+Result<std::vector<CellGrids>> cell_grids_by_time(CellInput input) {
+    const std::vector<std::string> typed = input.grid.files;
+    std::vector<CellGrids> grids;
+    if (typed == std::vector<std::string>{"-"}) {
+        // Standard input can be read only once.
+        auto made = grids_of_level2(input, typed);
+        if (!made) return pass_on(made);
+        grids.push_back(std::move(*made));
+        return grids;
+    }
+    const auto inputs = find_inputs(input.grid);
+    if (!inputs) return pass_on(inputs);
+    auto made = cell_grids_of_files(input, **inputs, typed);
+    if (made) std::ranges::stable_sort(*made, {}, &CellGrids::time);
+    return made;
+}
+
+}  // namespace
+
 Result<CellScans> find_cell_scans(CellInput input) {
-    if (auto inputs = find_inputs(input.grid); !inputs) return pass_on(inputs);
-    auto grids = cell_grids_of_files(input);
+    const auto freezing = input.freezing;
+    auto grids = cell_grids_by_time(std::move(input));
     if (!grids) return pass_on(grids);
-    std::ranges::stable_sort(*grids, {}, &CellGrids::time);
     std::vector<retrieve::CellScan> scans;
     for (std::size_t i = 0; i < grids->size(); ++i) {
         const CellGrids& one = (*grids)[i];
         const PictureGrid* const before = i > 0 ? &(*grids)[i - 1].reflectivity() : nullptr;
-        auto scan = scan_grid(one.reflectivity(), one.shear(), before, one.reflectivity().name(),
-                              input.freezing);
+        auto scan =
+            scan_grid(one.reflectivity(), one.shear(), before, one.reflectivity().name(), freezing);
         if (!scan) return pass_on(scan);
         scans.push_back(std::move(*scan));
     }

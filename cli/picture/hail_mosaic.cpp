@@ -46,9 +46,13 @@ Status take_largest_hail(const std::vector<pipeline::SceneVolume>& volumes,
 
 Result<PictureGrid> hail_grid_of_files(GridOptions options,
                                        const retrieve::FreezingLevels& levels) {
+    // Standard input can be read only once.
+    if (options.files == std::vector<std::string>{"-"})
+        return PictureGrid::make(std::move(options));
+    const GridOptions typed = options;
     const auto inputs = find_inputs(options);
     if (!inputs) return pass_on(inputs);
-    if (options.files.size() == 1) return PictureGrid::make(std::move(options));
+    if (options.files.size() == 1) return PictureGrid::make(typed);
     auto request = parse_request(options);
     if (!request) return pass_on(request);
     request->inputs = *inputs;

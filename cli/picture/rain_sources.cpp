@@ -66,28 +66,41 @@ Result<std::vector<LowestRates>> rates_of_files(const GridOptions& options, int 
     return all;
 }
 
-// Returns the grids from which a total may take its rates: those of RATE, or else of REF.
+// Returns the grids from which a total takes its rates: those of RATE, or those of REF if these
+// reach further into the span.
 Result<std::vector<cache::StoreEntry>> entries_of(const cache::StoreReader& store,
-                                                  const std::string& domain,
-                                                  std::optional<UtcTime> from,
-                                                  std::optional<UtcTime> to) {
-    auto entries = store.list(domain, level2::Moment::rate, from, to);
-    if (entries && entries->empty()) entries = store.list(domain, level2::Moment::ref, from, to);
-    if (entries && !to) cache::leave_out_future(*entries, now_utc());
-    return entries;
+                                                  const std::string& domain, const RainSpan& span) {
+    const UtcTime from = span.from - RainTotal::longest_bridge - longest_volume;
+    const UtcTime to = span.to + RainTotal::longest_bridge;
+    auto rates = store.list(domain, level2::Moment::rate, from, to);
+    if (!rates) return rates;
+    auto reflectivities = store.list(domain, level2::Moment::ref, from, to);
+    if (!reflectivities || reflectivities->empty()) return rates;
+    const UtcTime begin = std::max(reflectivities->front().time, span.from);
+    const UtcTime end = std::min(reflectivities->back().time, span.to);
+    const bool is_covered = !rates->empty() &&
+                            rates->front().time <= begin + RainTotal::longest_bridge &&
+                            rates->back().time >= end - RainTotal::longest_bridge;
+    return is_covered ? rates : reflectivities;
 }
 
 // Returns the end of the total: the requested time, or the middle of the newest volume.
 Result<UtcTime> end_of_total(const cache::StoreReader& store, const std::string& domain,
                              const RainChoice& choice) {
     if (choice.until) return *choice.until;
-    const auto entries = entries_of(store, domain, std::nullopt, std::nullopt);
-    if (!entries) return pass_on(entries);
-    if (entries->empty()) {
+    std::optional<cache::StoreEntry> last;
+    for (const level2::Moment moment : {level2::Moment::rate, level2::Moment::ref}) {
+        auto entries = store.list(domain, moment, std::nullopt, std::nullopt);
+        if (!entries) return pass_on(entries);
+        cache::leave_out_future(*entries, now_utc());
+        if (!entries->empty() && (!last || entries->back().time > last->time))
+            last = std::move(entries->back());
+    }
+    if (!last) {
         return fail(ErrorCode::not_found, "domain '{}' has no grids of rain rates or reflectivity",
                     domain);
     }
-    const auto newest = cache::GridFile::open(entries->back().path);
+    const auto newest = cache::GridFile::open(last->path);
     if (!newest) return pass_on(newest);
     return middle_of(newest->description());
 }
@@ -128,9 +141,7 @@ Result<PictureGrid> rain_total_of_domain(const cache::StoreReader& store, const 
     const auto end = end_of_total(store, domain, choice);
     if (!end) return pass_on(end);
     const RainSpan span = *span_ending(*end, choice.hours);
-    const auto entries =
-        entries_of(store, domain, span.from - RainTotal::longest_bridge - longest_volume,
-                   span.to + RainTotal::longest_bridge);
+    const auto entries = entries_of(store, domain, span);
     if (!entries) return pass_on(entries);
     RainTotalGrid total(span);
     std::optional<grid::GridSpec> cells;
@@ -141,7 +152,12 @@ Result<PictureGrid> rain_total_of_domain(const cache::StoreReader& store, const 
     }
     for (const cache::StoreEntry& entry : *entries) {
         const auto file = cache::GridFile::open(entry.path);
-        if (!file) return pass_on(file);
+        if (!file) {
+            // The cache may have evicted the grid meanwhile. Its minutes count as not seen.
+            if (file.error().code != ErrorCode::not_found)
+                print_note("left out: " + file.error().message);
+            continue;
+        }
         cache::GridDescription description = file->description();
         if (!(description.spec == *cells) || !tells_about(span, middle_of(description))) continue;
         const grid::BrickGrid lowest =

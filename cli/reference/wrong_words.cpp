@@ -52,8 +52,8 @@ std::string not_a_number(std::string_view said, const CommandReference& command)
                        found != nullptr && found->is_whole ? "whole " : "", text);
 }
 
-// Returns a sentence made from the parser's message, such as "--last: Value 0 not in range 1 to 9"
-// or "--last: 1 required INT missing".
+// Makes a sentence from a message of the parser, such as "--last: Value 0 not in range 1 to 9" or
+// "--last: 1 required INT missing". Returns other messages unchanged.
 std::string sentence_of(const std::string& said, const CommandReference& command) {
     constexpr std::string_view value = ": Value ", range = " not in range ";
     const std::size_t at_value = said.find(value), at_range = said.rfind(range);
@@ -84,7 +84,8 @@ std::string sentence_of(const std::string& said, const CommandReference& command
 }  // namespace
 
 std::string no_command(const std::string& name, const CommandReference& program) {
-    // Suggest names that the known part of the command has.
+    // Suggest commands below the words before the last one, or below the program if these words
+    // are no command.
     const std::size_t space = name.rfind(' ');
     const CommandReference* above =
         space == std::string::npos ? &program : find_command(program, name.substr(0, space));

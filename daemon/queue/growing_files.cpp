@@ -99,8 +99,8 @@ GrowingFiles::Files::iterator GrowingFiles::look_at(Files::iterator entry, Stead
 std::vector<GrowingFiles::Due> GrowingFiles::poll(SteadyTime now, const Look& look) {
     std::vector<Due> due;
     if (files_.empty() || now < next_poll_) return due;
-    // Poll all files once a second. Divide this round into parts, so that the caller never waits
-    // for a whole round.
+    // Poll up to `most_looks` files in each round, and begin at most one round a second. Divide a
+    // round into parts, so that the caller never waits for a whole round.
     if (looks_left_ == 0) {
         looks_left_ = std::min(files_.size(), most_looks);
         next_round_ = now + settle;

@@ -24,8 +24,9 @@ inline constexpr std::uint64_t most_list_bytes = std::uint64_t{4} << 20;
 [[nodiscard]] std::string list_url(const PullSource& source, UtcTime from);
 [[nodiscard]] std::string file_url(const PullSource& source, const cache::GridName& grid);
 
-// Returns the partials (grids of one site on the cells of a domain) of the source's domains, newest
-// first. Leaves out partials that are older than `from` or in the future.
+// Returns the partials (grids of one site on the cells of a domain) of the source's domains and
+// stations, newest first, each once, and at most `most_listed`. Leaves out partials that are older
+// than `from` or in the future.
 [[nodiscard]] Result<std::vector<cache::GridName>> parse_grid_list(std::span<const std::byte> text,
                                                                    const PullSource& source,
                                                                    UtcTime from, UtcTime now);

@@ -80,7 +80,7 @@ class Grid:
                   "flag_meanings": " ".join(state.name for state in CellState)}
         plane = {"units": "m", "standard_name": "projection_x_coordinate"}
         return xr.Dataset(
-            {self.moment: (dimensions, self.values(), {"units": self.unit}),
+            {self.moment: (dimensions, self.values(), {"units": self.unit, "grid_mapping": "crs"}),
              f"{self.moment}_status": (dimensions, self.states(), states),
              "crs": ((), 0, {"grid_mapping_name": "azimuthal_equidistant",
                              "latitude_of_projection_origin": self.center[0],

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .trees import MOMENT_NAMES
+from .trees import fixed_angle
 
 # Py-ART's usual names of fields.
 _FIELDS = {"REF": "reflectivity", "VEL": "velocity", "SW": "spectrum_width", "ZDR": "differential_reflectivity",
@@ -19,7 +19,7 @@ def to_pyart(volume):
     from pyart.config import get_metadata
     from pyart.core import Radar
 
-    moments = [moment for sweep in volume.sweeps for moment in sweep.moments.values()]
+    moments = [moment for sweep in volume.sweeps for moment in sweep.moments.values() if moment.gate_spacing_m > 0]
     if not moments:
         raise ValueError(f"{volume!r} has no moments")
     finest = min(moments, key=lambda moment: (moment.gate_spacing_m, moment.first_gate_m))
@@ -41,9 +41,8 @@ def to_pyart(volume):
     axis |= {"meters_to_center_of_first_gate": float(first), "meters_between_gates": float(step)}
     fields = {name: described(name, _field(volume, moment, ranges, ends))
               for moment, name in _FIELDS.items() if any(moment in sweep.moments for sweep in volume.sweeps)}
-    others = {moment for sweep in volume.sweeps for moment in sweep.moments} - set(_FIELDS)
-    fields |= {moment: {"data": _field(volume, moment, ranges, ends),
-                        "long_name": MOMENT_NAMES.get(moment, moment)} for moment in sorted(others)}
+    units = {moment.name: moment.unit for moment in moments if moment.name not in _FIELDS}
+    fields |= {name: {"data": _field(volume, name, ranges, ends), "units": unit} for name, unit in units.items()}
     return Radar(
         time, axis, fields, {"instrument_name": volume.station, "vcp_pattern": volume.vcp,
                              "original_container": "NEXRAD Level II"}, "ppi",
@@ -51,7 +50,7 @@ def to_pyart(volume):
         described("altitude", np.array([volume.altitude_m])),
         described("sweep_number", np.arange(len(volume.sweeps), dtype="i4")),
         described("sweep_mode", np.array(["azimuth_surveillance"] * len(volume.sweeps))),
-        described("fixed_angle", np.array([sweep.elevation_deg for sweep in volume.sweeps], "f4")),
+        described("fixed_angle", np.array([fixed_angle(sweep) for sweep in volume.sweeps], "f4")),
         described("sweep_start_ray_index", np.concatenate([[0], ends[:-1]]).astype("i4")),
         described("sweep_end_ray_index", (ends - 1).astype("i4")),
         described("azimuth", rays["azimuth_deg"]), described("elevation", rays["elevation_deg"]),
@@ -65,6 +64,8 @@ def _field(volume, name, ranges, ends):
         if name not in sweep.moments:
             continue
         moment = sweep.moments[name]
+        if moment.gate_spacing_m <= 0:
+            continue
         gates = np.floor((ranges - moment.first_gate_m) / moment.gate_spacing_m + 0.5).astype(int)
         known = (gates >= 0) & (gates < moment.shape[1])
         data[end - len(sweep.radials):end, known] = moment.values()[:, gates[known]]

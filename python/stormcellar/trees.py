@@ -1,6 +1,6 @@
 """Volumes as xarray datasets, in the layout of xradar 0.12 (FM 301, CfRadial 2).
 
-One thing differs from xradar: a gate without a value is NaN, and its state is in a variable of its own,
+One thing differs from xradar: a gate without a value is NaN (with packed=True it has a code that decodes to NaN), and its state is in a variable of its own,
 `DBZH_status`; xradar gives echo below the threshold the value of its lowest code.
 """
 
@@ -22,7 +22,6 @@ _MOMENTS = {
     "VELD": ("VRADDH", "radial_velocity_of_scatterers_away_from_instrument_h", "Dealiased radial velocity H",
              "meters per seconds"),
 }
-MOMENT_NAMES = {moment: names[0] for moment, names in _MOMENTS.items()}
 _STATES = {"flag_values": np.array([int(state) for state in State], "u1"),
            "flag_meanings": " ".join(state.name for state in State)}
 
@@ -69,7 +68,7 @@ def _root_dataset(volume):
             "time_coverage_start": _text(start),
             "time_coverage_end": _text(end),
             "sweep_group_name": ("sweep", names),
-            "sweep_fixed_angle": ("sweep", [_fixed_angle(sweep) for sweep in volume.sweeps]),
+            "sweep_fixed_angle": ("sweep", [fixed_angle(sweep) for sweep in volume.sweeps]),
         },
         coords={
             "latitude": ((), volume.latitude_deg, {"units": "degrees_north", "standard_name": "latitude"}),
@@ -86,7 +85,7 @@ def _root_dataset(volume):
     )
 
 
-def _fixed_angle(sweep):
+def fixed_angle(sweep):
     return sweep.elevation_deg if np.isnan(sweep.fixed_angle_deg) else sweep.fixed_angle_deg
 
 
@@ -98,7 +97,7 @@ def _sweep_dataset(sweep, sort, status, packed):
     if axis is not None:
         fitting = [_repeats(moment, axis) * moment.shape[1] for moment in sweep.moments.values()
                    if _repeats(moment, axis)]
-        axes["range"] = (axis.first_gate_m, axis.gate_spacing_m, max(fitting))
+        axes["range"] = (axis.first_gate_m, axis.gate_spacing_m, max(fitting, default=0))
     variables = {}
     for moment in sweep.moments.values():
         name = _MOMENTS.get(moment.name, (moment.name,))[0]
@@ -131,14 +130,14 @@ def _sweep_dataset(sweep, sort, status, packed):
                               "meters_between_gates": spacing, "meters_to_center_of_first_gate": first})
     return xr.Dataset(
         {**variables, "sweep_mode": "azimuth_surveillance", "sweep_number": sweep.number, "prt_mode": "not_set",
-         "follow_mode": "not_set", "sweep_fixed_angle": _fixed_angle(sweep),
+         "follow_mode": "not_set", "sweep_fixed_angle": fixed_angle(sweep),
          "nyquist_velocity": ("azimuth", radials["nyquist_mps"], {"units": "meters per seconds"})},
         coords=coordinates)
 
 
 def _repeats(moment, axis):
     """Returns how many gates of the axis a gate of the moment covers, or 0 if gates do not fit."""
-    if moment.gate_spacing_m <= 0 or moment.gate_spacing_m % axis.gate_spacing_m:
+    if min(moment.gate_spacing_m, axis.gate_spacing_m) <= 0 or moment.gate_spacing_m % axis.gate_spacing_m:
         return 0
     begin = 2 * moment.first_gate_m - moment.gate_spacing_m
     return moment.gate_spacing_m // axis.gate_spacing_m if begin == 2 * axis.first_gate_m - axis.gate_spacing_m else 0
@@ -165,4 +164,5 @@ def _attributes(moment):
 def _packing(moment):
     scale = moment.scale or 1
     return {"scale_factor": 1 / scale, "add_offset": -moment.offset / scale if moment.scale else 0.0,
-            "_FillValue": np.array(0, moment.codes().dtype)[()]}
+            "_FillValue": np.array(0, moment.codes().dtype)[()],
+            "missing_value": np.arange(1, moment.first_valid_code, dtype=moment.codes().dtype)}

@@ -42,7 +42,7 @@ class Moment:
 
     `name`, `unit`, `first_gate_m` (slant range to the center of the first gate), `gate_spacing_m`, `scale`, `offset`
     and `first_valid_code` are as in the file: value = (code - offset) / scale, or the code if the scale is 0. The
-    values have the exactness of single precision. Source: ICD 2620002.
+    values are in single precision. Source: ICD 2620002.
     """
 
     def __init__(self, handle, sweep, number, radials):
@@ -119,7 +119,7 @@ class Sweep:
 class Volume:
     """A volume of a Level II file of any year, compressed or not.
 
-    `source` is a path, bytes, or an open file, which is read from its start. `moments` ("REF VEL", or a list) leaves
+    `source` is a path, bytes, or an open file, which is read from its position. `moments` ("REF VEL", or a list) leaves
     out all others. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot
     be read; a damaged file gives what is whole, and `problems` says what is lost.
 
@@ -133,10 +133,8 @@ class Volume:
         pointer = ctypes.c_void_p()
         if isinstance(source, (str, os.PathLike)):
             call("volume_open", os.fsencode(source), ctypes.byref(options), ctypes.byref(pointer))
-        elif hasattr(source, "fileno"):
-            call("volume_from_descriptor", source.fileno(), ctypes.byref(options), ctypes.byref(pointer))
         else:
-            data = np.frombuffer(source, "u1")
+            data = np.frombuffer(source.read() if hasattr(source, "read") else source, "u1")
             call("volume_from_bytes", data.ctypes.data, data.size, ctypes.byref(options), ctypes.byref(pointer))
         self._take(pointer)
 
@@ -162,7 +160,7 @@ class Volume:
     def derive(self, moments, *, dealias=None, storm_motion=None, quality=0.0):
         """Returns a copy of the volume with derived moments: "VELD" (dealiased velocity), "SRV" (storm-relative
         velocity), "AZSH" (azimuthal shear), "DIVG" (divergence), "POW" (probability of weather), "KDP" (specific
-        differential phase), "RATE" (rain rate).
+        differential phase), "RATE" (rain rate), "HCA" (classes of hydrometeors).
 
         `dealias`: auto, off, profile, region or anchored. `storm_motion`, for SRV: auto, right, left, mean, or
         "240/15", from 240 degrees at 15 m/s. `quality`: leaves out gates whose probability of weather is less.

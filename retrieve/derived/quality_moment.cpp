@@ -253,7 +253,8 @@ LeftOutEcho keep_weather(level2::Volume& volume, double least) {
         const auto named = std::ranges::find_if(kinds, [&](const SweepKinds& of) {
             return of.sweep == quality->sweep && of.moment == quality->moment;
         });
-        left_out += keep_weather_in(volume, number, *quality, &*named, least);
+        left_out += keep_weather_in(volume, number, *quality,
+                                    named != kinds.end() ? &*named : nullptr, least);
     }
     return left_out;
 }

@@ -136,10 +136,13 @@ std::vector<std::vector<BeamPlace>> places_by_sector(const GateField& field, dou
     return places;
 }
 
-SweepHydrometeors classify(const level2::Volume& volume, std::size_t number, std::size_t moment,
-                           const MeltingLayer& layer, const SweepKdp* kdp) {
+// Returns none if the moment has no gates.
+std::optional<SweepHydrometeors> classify(const level2::Volume& volume, std::size_t number,
+                                          std::size_t moment, const MeltingLayer& layer,
+                                          const SweepKdp* kdp) {
     const level2::Sweep& sweep = volume.sweeps[number];
     const GateField field = gate_field(sweep, sweep.moments[moment]);
+    if (field.is_empty()) return std::nullopt;
     SweepHydrometeors made{number, moment, {}};
     made.classes.assign(field.codes.size(), Hydrometeor::none);
     const EchoGates echo(field);
@@ -193,10 +196,11 @@ std::vector<SweepHydrometeors> hydrometeors(const level2::Volume& volume,
         if (!has_dual_polarization(volume.sweeps[sweep])) continue;
         const auto kdp = std::ranges::find(all, sweep, &SweepKdp::sweep);
         const auto& moments = volume.sweeps[sweep].moments;
-        for (std::size_t moment = 0; moment < moments.size(); ++moment)
-            if (moments[moment].moment == Moment::ref)
-                made.push_back(
-                    classify(volume, sweep, moment, layer, kdp != all.end() ? &*kdp : nullptr));
+        for (std::size_t moment = 0; moment < moments.size(); ++moment) {
+            if (moments[moment].moment != Moment::ref) continue;
+            auto of = classify(volume, sweep, moment, layer, kdp != all.end() ? &*kdp : nullptr);
+            if (of) made.push_back(std::move(*of));
+        }
     }
     return made;
 }

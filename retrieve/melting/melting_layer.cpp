@@ -68,8 +68,8 @@ Found find_dips(const level2::Volume& volume) {
     return found;
 }
 
-// Returns the median heights of some dips. Their errors join the scatter of the dips, or at least
-// `scatter` if it is larger, with the error of a dip's shape.
+// Returns the median heights of some dips. Each error combines the error of a dip's shape with the
+// scatter of the dips, which counts as at least `scatter_m`.
 LayerHeights joined(std::span<const SectorDip> dips, double scatter_m) {
     std::vector<double> bottoms, tops, beams;
     for (const SectorDip& of : dips) {
@@ -102,7 +102,8 @@ bool keep_agreeing(std::vector<SectorDip>& dips) {
     return dips.size() >= least_profiles && static_cast<double>(dips.size()) >= least_share * all;
 }
 
-Error reason(const Found& found) {
+// `dips` is the number of profiles with a minimum, before those that do not agree were left out.
+Error reason(const Found& found, std::size_t dips) {
     const auto because = [](const char* text) {
         return Error{ErrorCode::not_found, fmt::format("no melting layer found: {}", text)};
     };
@@ -111,7 +112,7 @@ Error reason(const Found& found) {
     if (found.is_open_below)
         return because("it may begin below the lowest height seen from 4 to 10 degrees");
     if (!found.is_tall_enough) return because("too little stratiform echo from 4 to 10 degrees");
-    if (found.dips.size() < least_profiles)
+    if (dips < least_profiles)
         return because("the correlation coefficient has no minimum between rain and snow");
     return because("the heights of least correlation do not agree");
 }
@@ -132,8 +133,9 @@ const LayerHeights& MeltingLayer::at(double azimuth_deg) const {
 
 Result<MeltingLayer> melting_layer(const level2::Volume& volume) {
     Found found = find_dips(volume);
-    if (found.dips.size() < least_profiles || !keep_agreeing(found.dips))
-        return tl::unexpected<Error>(reason(found));
+    const std::size_t dips = found.dips.size();
+    if (dips < least_profiles || !keep_agreeing(found.dips))
+        return tl::unexpected<Error>(reason(found, dips));
     MeltingLayer layer;
     layer.profiles = static_cast<int>(found.dips.size());
     layer.heights = joined(found.dips, 0);
@@ -141,7 +143,8 @@ Result<MeltingLayer> melting_layer(const level2::Volume& volume) {
         std::vector<SectorDip> own;
         std::ranges::copy_if(found.dips, std::back_inserter(own),
                              [&](const SectorDip& of) { return of.sector == sector; });
-        if (!own.empty()) layer.sectors[sector] = joined(own, 0);
+        const double scatter_m = std::min(layer.heights.bottom_error_m, layer.heights.top_error_m);
+        if (!own.empty()) layer.sectors[sector] = joined(own, scatter_m);
     }
     return layer;
 }

@@ -13,7 +13,8 @@ namespace stormcellar::fault {
 
 class SteeringFile {
   public:
-    // Counts calls of these kinds below these directories (three at most); no call fails yet.
+    // Counts calls of these kinds on files below these directories (three at most). No call fails
+    // yet.
     SteeringFile(const std::filesystem::path& file, const std::vector<std::filesystem::path>& below,
                  std::uint32_t kinds);
     SteeringFile(const SteeringFile&) = delete;
@@ -21,8 +22,8 @@ class SteeringFile {
     ~SteeringFile();
 
     Steering* operator->() const { return steering_; }
-    // Makes `count` calls fail, beginning with call number `from`; with UINT64_MAX, all calls until
-    // end().
+    // Makes `count` calls fail, beginning with call number `from`. If `count` is UINT64_MAX, all
+    // calls from there fail until end().
     void fail(std::uint64_t from, std::uint64_t count, int error_number);
     void end() { steering_->to = 0; }
     [[nodiscard]] std::map<std::string, std::string> environment() const;

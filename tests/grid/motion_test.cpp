@@ -22,7 +22,7 @@ GridSpec drift_spec(int cells, double spacing_m) {
     return spec;
 }
 
-// Returns some fifteen different storms all over the grid.
+// Returns fifteen different storms all over the grid.
 std::vector<Blob> storms(double east_mps, double north_mps) {
     std::vector<Blob> blobs;
     for (int i = 0; i < 15; ++i) {
@@ -47,7 +47,7 @@ struct Drift {
 
 class EveryDrift : public ::testing::TestWithParam<Drift> {};
 
-TEST_P(EveryDrift, IsHadBackEverywhere) {
+TEST_P(EveryDrift, IsRecoveredEverywhere) {
     const GridSpec spec = drift_spec(400, 1000);
     const auto [east_mps, north_mps] = GetParam();
     const auto field = between(spec, storms(east_mps, north_mps));
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Motion, EveryDrift,
                          ::testing::Values(Drift{0, 0}, Drift{20, 0}, Drift{0, -20}, Drift{14, 11},
                                            Drift{-33, 21}, Drift{5, -3}, Drift{-2, 48}));
 
-TEST(Motion, OfTwoRegionsIsThatOfEach) {
+TEST(Motion, DiffersBetweenTwoRegions) {
     const GridSpec spec = drift_spec(400, 1000);
     std::vector<Blob> blobs;
     for (int i = 0; i < 8; ++i) {
@@ -105,7 +105,7 @@ TEST(Motion, HasTheSameBitsOnAnyNumberOfThreads) {
         EXPECT_EQ((*alone)->at(at, 300 - at), (*together)->at(at, 300 - at));
 }
 
-TEST(Motion, OfOtherSpecsOrNoTimeIsRefused) {
+TEST(Motion, RefusesDifferentSpecsAndInvalidTimes) {
     const auto quantization = default_quantization(level2::Moment::ref);
     const auto one = BrickGrid::from(blob_grid(drift_spec(100, 1000), {}, 0), quantization);
     const auto other = BrickGrid::from(blob_grid(drift_spec(100, 2000), {}, 0), quantization);

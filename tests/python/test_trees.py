@@ -49,6 +49,7 @@ class Trees(unittest.TestCase):
                 decoded = xr.decode_cf(packed[group])
                 for moment in [name for name in values[group] if f"{name}_status" in values[group]]:
                     is_value = values[group][f"{moment}_status"] == 0
+                    self.assertTrue(np.isnan(decoded[moment].values[~is_value.values]).all(), moment)
                     np.testing.assert_allclose(decoded[moment].where(is_value), values[group][moment], rtol=1e-5,
                                                atol=1e-4)
 

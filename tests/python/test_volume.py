@@ -1,6 +1,7 @@
 """Reads real volumes in Python, and compares them with the golden values and with the command line."""
 
 import gc
+import io
 import json
 import os
 import pathlib
@@ -58,9 +59,10 @@ class Volumes(unittest.TestCase):
     def test_sources_are_paths_bytes_and_files(self):
         with open(real(STORM), "rb") as file:
             from_file = stormcellar.Volume(file, station="KTLX")
+        in_memory = stormcellar.Volume(io.BytesIO(real(STORM).read_bytes()), station="KTLX")
         from_bytes = stormcellar.Volume(real(STORM).read_bytes(), station="KTLX")
         from_path = stormcellar.Volume(str(real(STORM)))
-        for volume in (from_file, from_bytes):
+        for volume in (from_file, in_memory, from_bytes):
             self.assertEqual(repr(volume), repr(from_path))
 
     def test_errors_have_a_line_and_a_code(self):

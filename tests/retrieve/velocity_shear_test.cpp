@@ -64,8 +64,9 @@ SweepSpec spec_of(const Geometry& geometry) {
     return spec;
 }
 
-// A body that turns counterclockwise `per_s` radians a second about a point 40 km away is seen to
-// move by per_s * distance * sin(angle), at all ranges.
+// A body turns counterclockwise by `per_s` radians a second about a point 40 km away. At all
+// ranges, its velocity away from the radar is per_s * 40 km * sin(azimuth from the center), times
+// the cosine of the elevation.
 TEST(VelocityShear, SolidRotationIsExact) {
     constexpr double per_s = 0.0015, center_deg = 130, center_m = 40e3;
     for (const Geometry& geometry : geometries) {
@@ -87,7 +88,7 @@ TEST(VelocityShear, SolidRotationIsExact) {
                 if (range_m < 6000 || std::abs(turn) > 1) continue;
                 ++seen;
                 const double exact = per_s * center_m * std::cos(turn) / (range_m * level);
-                // Rounding can move two radials apart.
+                // Rounding can change the difference of two radials by a step of the codes.
                 const double rounding = finest_mps / (range_m * 360 * degree / geometry.radials);
                 ASSERT_NEAR(shear.azimuthal_per_s[at], exact, 1e-3 * exact + rounding) << range_m;
                 ASSERT_NEAR(shear.divergence_per_s[at], 0, 1e-5);
@@ -141,7 +142,8 @@ TEST(VelocityShear, CounterclockwiseIsPositiveInAllDirections) {
 
 class RankineVortex : public ::testing::TestWithParam<Vortex> {};
 
-// The shear around the center, unfolded, must be within 5 % of the shear of the smoothed vortex.
+// Around the center, the shear of dealiased velocities must differ from that of the smoothed vortex
+// by at most 5 % of the shear at the center.
 TEST_P(RankineVortex, IsAsTheBeamAndTheKernelSmoothIt) {
     const Vortex& vortex = GetParam();
     const FoldedVolume folded = fold(vortex);
@@ -167,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Vortex{100e3, 4000, 40, 33, 360, true},
                       Vortex{100e3, 4000, 25, 16, 720, true}));
 
-// With noise alone, the values spread as their errors say.
+// With noise alone, the values spread as much as their errors, or half as much after a median.
 TEST(VelocityShear, ErrorsCoverNoise) {
     for (const int radials : {360, 720}) {
         for (const MedianFilter median : {MedianFilter::off, MedianFilter::always}) {
@@ -207,8 +209,9 @@ TEST(VelocityShear, ErrorsCoverNoise) {
     }
 }
 
-// A wind that changes linearly from east to west over radials of irregular azimuths, with a gap of
-// 40 degrees, an overlap, and the radials in any order.
+// The velocity is 60 m/s times the sine of the azimuth, at all ranges. The azimuths are irregular
+// and begin near 300 degrees. They have a gap of 40 degrees, and the last radials overlap the
+// first.
 TEST(VelocityShear, IrregularRadialsGiveTheSameShear) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> jitter(-0.2F, 0.2F);
@@ -298,12 +301,12 @@ TEST(VelocityShear, DamagedRadialsAreLeftOut) {
     radials[50].elevation_deg = std::numeric_limits<float>::quiet_NaN();
     radials[90].nyquist_mps = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t radial = 180; radial < 360; ++radial)
-        radials[radial].nyquist_mps = 17;  // another sheet
+        radials[radial].nyquist_mps = 17;  // another Nyquist velocity
     volume.sweeps[0].moments[0].gate_counts[120] = 0;
     const SweepShear shear = shear_of(volume);
     expect_finite(shear);
     EXPECT_GT(fitted_gates(shear), 140'000U);
-    EXPECT_EQ(shear.is_fitted[7 * 400 + 200], 0) << "a radial without a direction has no rows";
+    EXPECT_EQ(shear.is_fitted[7 * 400 + 200], 0) << "a radial without an azimuth is not fitted";
     EXPECT_EQ(shear.is_fitted[180 * 400 + 200], 1)
         << "the fit crosses a change of Nyquist velocity";
 }

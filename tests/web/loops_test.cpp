@@ -74,7 +74,7 @@ TEST_F(Loops, AreGivenOutWithTagsAndRanges) {
     EXPECT_EQ(body_of(asked(loops, "/loops/plains.gif")), "GIF89a");
 }
 
-TEST_F(Loops, OthersAreNotThere) {
+TEST_F(Loops, OtherNamesAreNotFound) {
     LoopsDoor loops = door();
     for (const char* target :
          {"/loops/oklahoma.mp4", "/loops/oklahoma", "/loops/texas.webp", "/loops/plains.webp",

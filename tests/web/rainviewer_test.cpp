@@ -46,7 +46,7 @@ TEST_F(RainViewer, ListsTheFrames) {
     EXPECT_EQ(get("/rainviewer/KTLX/v2/radar/925775781/256/8/58/100/6/0_0.png").status, 200U);
     for (const char* path : {"/public/maps.json", "/api/maps.json"})
         EXPECT_EQ(body_of(get(path)), "[925775781]\n");
-    EXPECT_TRUE(maps("/rainviewer/KXXX")["radar"]["past"].empty());
+    EXPECT_EQ(get("/rainviewer/KXXX/public/weather-maps.json").status, 404U);
 }
 
 // The tile 8/58/100 is near the middle of the storm.
@@ -127,6 +127,8 @@ TEST_F(RainViewer, CoverageIsBlackWhereNoBeamLooked) {
     EXPECT_GT(black, 50);
     EXPECT_GT(clear, 50);
     EXPECT_LE(wrong, (black + clear) / 50) << "a pixel of this zoom covers some cells";
+    EXPECT_EQ(header_of(get("/v2/coverage/0/256/6/14/25/0/0_0.png"), "Cache-Control"), "no-cache")
+        << "a newer grid may have seen more";
     const auto far = decoded_png(body_of(get("/v2/coverage/0/256/6/0/0/0/0_0.png")));
     EXPECT_EQ(far.at(100, 100), (render::Rgba8{0, 0, 0, 255}));
 }

@@ -2,7 +2,7 @@
 //
 // There are three quantities, which are never mixed: the distance of a cell's sample from its true
 // place, the error of a value, and the error of a picture's color. Sizes are magnitudes: never
-// negative and never NaN. An infinite size has no known bound.
+// negative and never NaN. An infinite size means that no bound is known.
 //
 // Units     Meters for positions, the unit of the moment (ValueUnit) for values, CIEDE2000 for
 //           colors.

@@ -1,4 +1,4 @@
-// Defines the quiet colors behind the echo: the dark theme of pictures, and a few colors that only the page has.
+// Defines the colors of the dark theme of pictures, and a few colors that only the page has, such as those of rotation.
 
 import { dark } from '../facts';
 

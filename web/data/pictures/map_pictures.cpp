@@ -24,6 +24,7 @@ namespace {
 
 // Raise this number whenever the same grid gives another picture than before.
 constexpr int version_of_pictures = 1;
+constexpr int longest_reach_km = 500;  // of any sweep
 constexpr double tolerated_octaves = 0.2;
 constexpr std::size_t most_boxes_known = 512;
 constexpr std::size_t longest_shown_domain = 80;
@@ -114,6 +115,13 @@ Result<render::Image> MapPictures::drawn(const PictureLayer& layer,
     const render::Scene& scene = layer.style.scene;
     std::shared_ptr<const FlatMap> sweep;
     if (layer.sweep) {
+        // Decode no volume for tiles far from the radar.
+        const grid::SitePosition& site = grid.file.description().sites.front();
+        grid::GridSpec reach = grid::default_spec(site.latitude_deg, site.longitude_deg);
+        reach.nx = reach.ny = 2 * longest_reach_km;
+        if (!render::meets(window, box_of(grid.domain, reach)))
+            return render::Image(window.width, window.height,
+                                 render::color_outside(layer.style.look));
         auto made = maps_.find_or_make(*layer.sweep, *options_.sweeps, options_.threads);
         if (!made) return pass_on(made);
         sweep = std::move(*made);

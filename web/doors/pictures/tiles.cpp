@@ -227,6 +227,7 @@ Found<TilesDoor::ShownSweep> TilesDoor::shown_sweep(const Request& request,
         exact = *time;
     }
     const auto found = grid_of_sweep(pictures_->grids(), path[1], exact);
+    if (!found && !exact) return tl::unexpected(sentence(404, "There is no grid in this domain."));
     const UtcTime time = exact.value_or(found ? found->time : UtcTime{});
     const auto grid = grid_named(pictures_->grids(), path[1],
                                  found ? found->moment : level2::Moment::ref, format_utc(time));

@@ -51,14 +51,14 @@ render::ColorTable gray_levels() {
     return table;
 }
 
-// Reads COLOR and OPTIONS, which is SMOOTH_SNOW.
+// Reads COLOR, and OPTIONS in the form SMOOTH_SNOW.
 Result<MapStyle> style_of(std::string_view color, std::string_view options) {
     const auto scheme = number_in<int>(color);
     if (!scheme || *scheme < 0 || *scheme > most_color)
         return fail(ErrorCode::not_found, "a color scheme is a number from 0 to {}", most_color);
     constexpr std::array<std::string_view, 4> known{"0_0", "0_1", "1_0", "1_1"};
     if (std::ranges::find(known, options) == known.end())
-        return fail(ErrorCode::not_found, "the options are SMOOTH_SNOW, each 0 or 1");
+        return fail(ErrorCode::not_found, "the options are two digits, SMOOTH_SNOW, each 0 or 1");
     const bool is_smooth = options[0] == '1' && *scheme != 0;
     auto style = map_style({render::Product::composite, reflectivity},
                            {{"colors", *scheme == color_of_classes ? "nws" : "smooth"},
@@ -140,6 +140,11 @@ Result<AskedPicture> picture_named(const std::vector<std::string_view>& path) {
     return AskedPicture{std::move(*style), *window, ending == ".png" ? ".png" : ".webp"};
 }
 
+// Returns the text that max_age_of() takes for a time: the coverage is that of the newest grid.
+std::string_view time_text(const std::vector<std::string_view>& path) {
+    return path[1] == "coverage" ? "latest" : path[2];
+}
+
 }  // namespace
 
 std::vector<UtcTime> frame_times(const std::vector<UtcTime>& times) {
@@ -209,7 +214,7 @@ Answer RainViewerDoor::weather_maps(const Request& request, const Asked& asked) 
 
 Result<UtcTime> RainViewerDoor::time_of(const Asked& asked) const {
     const Grids& grids = pictures_->grids();
-    if (asked.path[1] == "coverage")
+    if (time_text(asked.path) == "latest")
         return time_of_grid(grids, asked.domain, reflectivity, "latest");
     const auto seconds = number_in<std::int64_t>(asked.path[2]);
     if (!seconds || *seconds < 0 || *seconds > seconds_since_1970(cache::last_possible_time))
@@ -229,11 +234,14 @@ std::optional<Answer> RainViewerDoor::answer_at_once(const Request& request) {
     if (!time) return std::nullopt;
     const auto grid = pictures_->grids().find_if_open(wanted.domain, reflectivity, *time);
     if (!grid) return std::nullopt;
-    return kept_map_answer(request, *pictures_, picture->of(grid), max_age_of("", *grid));
+    return kept_map_answer(request, *pictures_, picture->of(grid),
+                           max_age_of(time_text(wanted.path), *grid));
 }
 
 Answer RainViewerDoor::answer(const Request& request) {
     const Asked wanted = asked(request);
+    if (!wanted.prefix.empty() && !pictures_->grids().newest(wanted.domain, reflectivity))
+        return sentence(404, "There is no grid of reflectivity in this domain.");
     if (wanted.path.size() == 2 && wanted.path[0] != "v2") {
         if (wanted.path[1] == "weather-maps.json") return weather_maps(request, wanted);
         if (wanted.path[1] == "maps.json") return legacy_maps(request, wanted);
@@ -245,7 +253,8 @@ Answer RainViewerDoor::answer(const Request& request) {
     const auto grid =
         grid_named(pictures_->grids(), wanted.domain, reflectivity, format_utc(*time));
     if (!grid) return grid.error();
-    return map_answer(request, *pictures_, picture->of(*grid), max_age_of("", **grid));
+    return map_answer(request, *pictures_, picture->of(*grid),
+                      max_age_of(time_text(wanted.path), **grid));
 }
 
 }  // namespace stormcellar::web

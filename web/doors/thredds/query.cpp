@@ -44,7 +44,7 @@ Result<double> degrees_of(std::string_view name, std::string_view text, double m
                 most, most);
 }
 
-// Reads all of these parameters, or none of them.
+// Reads these parameters. Returns no values if none is given. Fails if only some are given.
 Result<std::vector<double>> read_degrees(const Request& request,
                                          const std::vector<std::string_view>& names) {
     std::vector<double> values;

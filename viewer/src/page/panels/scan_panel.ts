@@ -55,6 +55,7 @@ export class ScanPanel {
             ]);
             this.putRows(shown, rows, volumes);
         } catch (error) {
+            if (shown !== this.app.shown) return;
             if (isAbsent(error)) this.say(words.none);
             else this.app.fail(error);
         }
