@@ -77,7 +77,8 @@ UtcTime time_of(const Json& json) {
     return *time;
 }
 
-// Reads how moments are derived. A plan of an older version does not say so, and has the default.
+// Reads how moments are derived. A plan of an older version lacks these keys, so the defaults
+// apply.
 retrieve::DerivedOptions derived_of(const Json& json) {
     retrieve::DerivedOptions derived;
     derived.quality = json.value("quality", derived.quality);

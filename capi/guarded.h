@@ -49,7 +49,7 @@ stormcellar_code guarded(stormcellar_error* error, Function&& function) noexcept
     }
 }
 
-// Returns bad_argument that names the null pointer.
+// Returns the error bad_argument, with the name of the null pointer.
 [[nodiscard]] inline tl::unexpected<Error> is_null(std::string_view name) {
     return fail(ErrorCode::bad_argument, "{} is null", name);
 }
@@ -67,7 +67,8 @@ template <class Facts>
     return {};
 }
 
-// Reads such a struct; members that the caller does not know are zero. Null: all are zero.
+// Reads a struct whose first member is its size. Members that the caller does not know are zero.
+// For null, all members are zero.
 template <class Options>
 [[nodiscard]] Result<Options> take(const Options* options) {
     Options all{};

@@ -30,7 +30,7 @@ struct CellScans {
     std::vector<std::string> newest_files;  // of the newest scan: one, or all of a mosaic
 };
 
-// Finds the cells of each file: of a grid file, or of a Level II file that is gridded first. Files
+// Finds the cells of each file. Grids Level II files first. Files
 // of several radars, one of each, make one mosaic. The scans know the motion of the echo. Errors
 // name the file: those of PictureGrid; bad_argument for several files of some radars but not of
 // all, or for shear of a grid file.

@@ -197,7 +197,8 @@ Result<PictureGrid> find_cells_of_files(FrameOptions& options, const render::Sce
     return std::move(found->reflectivity);
 }
 
-// Returns the time that a rain total covers. Errors: bad_argument for an invalid time.
+// Returns the length, the end and the threads of a rain total. Errors: bad_argument for an invalid
+// time.
 Result<RainChoice> rain_choice(const FrameOptions& options) {
     const auto until = until_of(options);
     if (!until) return pass_on(until);

@@ -18,12 +18,13 @@ namespace {
 using retrieve::RainSpan;
 using retrieve::RainTotal;
 
-// Longer than any volume takes, so that grids are listed by their start.
+// No volume takes longer. The store lists grids by the start of their volumes, so the list begins
+// this much earlier.
 constexpr std::chrono::minutes longest_volume{30};
 constexpr const char* reflectivity_note =
     "rain rates by reflectivity alone, because the cache has no grids of rain rates";
 
-// The lowest rates of a volume, as cells, which take less memory than bricks.
+// The lowest rates of a volume. Cells take less memory than bricks.
 struct LowestRates {
     std::string name;
     grid::Grid rates;

@@ -23,7 +23,7 @@ class StoredCells {
   public:
     static constexpr std::chrono::minutes history{60};
     static constexpr std::size_t most_grids = 24;
-    // Older cells say nothing of a picture.
+    // A picture shows no cells older than this.
     static constexpr std::chrono::minutes longest_age{30};
 
     // `freezing` is none if MESH is not wanted.

@@ -95,7 +95,7 @@ class Sweep:
     (the cut of the pattern, from 1), `radials` (a structured array, one row for each radial in the order of arrival:
     time, azimuth_deg, elevation_deg, nyquist_mps, unambiguous_range_m, status, azimuth_number) and `moments`, by name.
 
-    If radials of a sweep differ in their gates, the moment has the gates of the first kind, and `kinds` has all.
+    If radials of a sweep differ in their gates, `moments` has the gates of the first kind, and `kinds` has all kinds.
     """
 
     def __init__(self, handle, number):

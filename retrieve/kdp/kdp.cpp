@@ -51,7 +51,7 @@ class KdpMaker {
     }
 
   private:
-    // Finds the correlation coefficients at the gates; none without any.
+    // Finds the correlation coefficients at the gates. Does nothing if the sweep has none.
     void find_correlations(std::size_t radial, std::size_t gates) {
         if (correlations_.is_empty()) return;
         known_.resize(gates);

@@ -27,7 +27,7 @@ struct PhaseSlopes {
     std::vector<float> error;         // standard error of the slope; NaN likewise
 };
 
-// Fits the slopes of one radial after another, and uses the memory of the last one again.
+// Fits the slopes of one radial after another. Each radial reuses the memory of the last one.
 class SlopeFitter {
   public:
     explicit SlopeFitter(double spacing_m);

@@ -1,8 +1,8 @@
 // retrieve/kdp/window_slopes.h -- slopes in windows of one length, and their means at gates.
 //
 // Units     Degrees and gates.
-// Accuracy  Every target of the vectors gives the same bits
-// (tests/retrieve/window_slopes_test.cpp). Threads   Pure functions.
+// Accuracy  Every target of the vectors gives the same bits: tests/retrieve/window_slopes_test.cpp.
+// Threads   Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ struct SlopeSums {
     std::vector<float> is_even;  // 1 where the phase is a line in the longest windows, else 0
     std::vector<float> weights, slopes, squares, errors;  // the last three weighted
 
-    // Begins the sums of so many gates. `longest` are the windows of the greatest length, which
+    // Begins the sums of `gates` gates. `longest` are the windows of the greatest length, which
     // hold a gate with 0, 1, ... or all `parts` parts of themselves before it.
     void begin(const WindowSlopes& longest, std::ptrdiff_t parts, std::size_t gates);
 };

@@ -49,7 +49,7 @@ std::vector<GatePlace> gate_places(const GateField& reflectivity, const GateFiel
     return places;
 }
 
-// Returns the mean of the middle half of the values, which it sorts in part.
+// Returns the mean of the middle half of the values.
 double middle_mean(std::vector<float> values) {
     const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
     const auto first = values.begin() + quarter, last = values.end() - quarter;

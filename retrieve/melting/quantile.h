@@ -1,4 +1,4 @@
-// retrieve/melting/quantile.h -- a value that a share of some values does not exceed.
+// retrieve/melting/quantile.h -- returns a quantile of some values.
 //
 // Threads   A pure function.
 #pragma once

@@ -12,7 +12,7 @@
 
 namespace stormcellar::web {
 
-// What pages of other origins may do.
+// Rules for pages of other origins.
 struct OriginRules {
     bool any_may_read = false;          // pages of all origins may read answers
     std::vector<std::string> embed_in;  // origins whose pages may show ours in a frame

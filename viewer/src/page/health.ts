@@ -7,7 +7,7 @@ const freshS = 10 * 60; // two volumes of any usual scan
 const liveS = 30 * 60; // no radar takes so long from one volume to the next
 
 //   live     the newest data are at most 10 minutes old
-//   late     they are older, but no date tells their age
+//   late     they are older, but not so old that the page shows a date
 //   silent   the radar or the server sends nothing
 //   archive  old data, data of the future, or none
 export type HealthLevel = 'live' | 'late' | 'silent' | 'archive';

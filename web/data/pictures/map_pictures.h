@@ -43,7 +43,7 @@ struct MapPicturesOptions {
 struct PictureLayer {
     std::shared_ptr<const OpenGrid> grid;
     MapStyle style;
-    std::optional<SweepPicture> sweep = {};  // of the grid's raw volume, to show in its place
+    std::optional<SweepPicture> sweep = {};  // of the grid's raw volume, shown instead of the grid
 };
 
 struct MapPicture {

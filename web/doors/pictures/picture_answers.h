@@ -37,8 +37,8 @@ struct GridOfSweep {
     UtcTime time;
     level2::Moment moment;
 };
-// Returns the newest grid of any moment at `until` or before, or none. Without `until`, it is the
-// newest grid by newest_believed().
+// Returns the newest grid of any moment at `until` or before, or none. Without `until`, returns
+// the newest grid by newest_believed().
 [[nodiscard]] std::optional<GridOfSweep> grid_of_sweep(const Grids& grids, std::string_view domain,
                                                        std::optional<UtcTime> until);
 // Finds the raw volume of the grid. Refuses with 404 if the catalog has none, with 410 if its file
@@ -56,7 +56,7 @@ struct GridOfSweep {
                                                      const std::string& etag,
                                                      std::optional<std::chrono::seconds> max_age);
 
-// Returns 304 or the picture, if it is kept; else none.
+// Returns 304 if the client has the picture, or the picture if it is kept. Otherwise returns none.
 [[nodiscard]] std::optional<Answer> kept_map_answer(const Request& request, MapPictures& pictures,
                                                     const MapPicture& picture,
                                                     std::optional<std::chrono::seconds> max_age);
