@@ -18,13 +18,7 @@ using ::testing::StartsWith;
 // Three volumes of one storm, which moves by 15 m/s to the east and 5 to the north.
 class CellsCommand : public ::testing::Test {
   protected:
-    void SetUp() override {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::string name = testing::small_sequence.at(i);
-            files_.push_back(directory_.path() / name);
-            testing::write_small_volume(name, files_.back());
-        }
-    }
+    void SetUp() override { files_ = testing::write_small_volumes(3, directory_.path()); }
     [[nodiscard]] Words command(const Words& options) const {
         return with({"cells"}, files_, options);
     }

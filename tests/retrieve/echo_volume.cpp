@@ -5,27 +5,12 @@
 #include <cmath>
 
 #include "stormcellar/grid/beam_geometry.h"
+#include "tests/retrieve/empty_moment.h"
 
 namespace stormcellar::retrieve {
 namespace {
 
 using level2::Moment;
-
-level2::SweepMoment empty_moment(const EchoVolumeSpec& spec, Moment kind, float scale,
-                                 float offset) {
-    level2::SweepMoment moment;
-    moment.moment = kind;
-    moment.word_size_bits = 16;
-    moment.first_gate_m = spec.gate_spacing_m;
-    moment.gate_spacing_m = spec.gate_spacing_m;
-    moment.gate_stride = spec.gates;
-    moment.scale = scale;
-    moment.offset = offset;
-    const auto radials = static_cast<std::size_t>(spec.radials);
-    moment.gate_counts.assign(radials, static_cast<std::uint16_t>(spec.gates));
-    moment.codes16.assign(radials * static_cast<std::size_t>(spec.gates), 0);
-    return moment;
-}
 
 void set_value(level2::SweepMoment& moment, std::size_t at, float value) {
     if (std::isnan(value)) return;
@@ -45,14 +30,12 @@ level2::Sweep echo_sweep(const EchoVolumeSpec& spec, double elevation_deg,
         radial.elevation_deg = static_cast<float>(elevation_deg);
         radial.nyquist_mps = 26;
     }
-    sweep.moments = {empty_moment(spec, Moment::ref, 2, 66),
-                     empty_moment(spec, Moment::vel, 2, 129),
-                     empty_moment(spec, Moment::sw, 2, 129)};
-    if (spec.has_dual) {
-        sweep.moments.push_back(empty_moment(spec, Moment::zdr, 16, 128));
-        sweep.moments.push_back(empty_moment(spec, Moment::phi, 2.8361F, 2));
-        sweep.moments.push_back(empty_moment(spec, Moment::rho, 300, -60.5F));
-    }
+    const GateLayout layout = {spec.radials, spec.gates, spec.gate_spacing_m, spec.gate_spacing_m};
+    for (const Moment kind : {Moment::ref, Moment::vel, Moment::sw})
+        sweep.moments.push_back(empty_moment(layout, kind));
+    if (spec.has_dual)
+        for (const Moment kind : {Moment::zdr, Moment::phi, Moment::rho})
+            sweep.moments.push_back(empty_moment(layout, kind));
     const grid::BeamGeometry beam(40, 0);
     std::size_t at = 0;
     for (const level2::Radial& radial : sweep.radials)

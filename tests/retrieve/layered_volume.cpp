@@ -7,6 +7,7 @@
 #include <random>
 
 #include "stormcellar/grid/beam_geometry.h"
+#include "tests/retrieve/empty_moment.h"
 
 namespace stormcellar::retrieve {
 namespace {
@@ -16,21 +17,6 @@ using level2::Moment;
 constexpr int nearest_gate_m = 2125, gate_spacing_m = 250;
 constexpr double beam_sigma_deg = 0.95 / 3.33;
 constexpr std::array beam_places = {-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0};
-
-level2::SweepMoment moment_of(const LayeredSpec& spec, Moment kind, float scale, float offset) {
-    level2::SweepMoment moment;
-    moment.moment = kind;
-    moment.word_size_bits = 16;
-    moment.first_gate_m = nearest_gate_m;
-    moment.gate_spacing_m = gate_spacing_m;
-    moment.gate_stride = spec.gates;
-    moment.scale = scale;
-    moment.offset = offset;
-    const auto radials = static_cast<std::size_t>(spec.radials);
-    moment.gate_counts.assign(radials, static_cast<std::uint16_t>(spec.gates));
-    moment.codes16.assign(radials * static_cast<std::size_t>(spec.gates), 0);
-    return moment;
-}
 
 std::uint16_t dual_code(const level2::SweepMoment& moment, double value) {
     const double code =
@@ -78,9 +64,9 @@ class SweepMaker {
             radial.elevation_deg = static_cast<float>(elevation_deg);
             radial.nyquist_mps = 26;
         }
-        sweep.moments = {
-            moment_of(spec_, Moment::ref, 2, 66), moment_of(spec_, Moment::zdr, 16, 128),
-            moment_of(spec_, Moment::phi, 2.8361F, 2), moment_of(spec_, Moment::rho, 300, -60.5F)};
+        const GateLayout layout = {spec_.radials, spec_.gates, nearest_gate_m, gate_spacing_m};
+        for (const Moment kind : {Moment::ref, Moment::zdr, Moment::phi, Moment::rho})
+            sweep.moments.push_back(empty_moment(layout, kind));
         for (std::size_t radial = 0; radial < sweep.radials.size(); ++radial)
             fill(sweep, radial, elevation_deg);
         return sweep;

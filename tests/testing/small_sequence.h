@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -44,6 +45,19 @@ inline void write_small_volume(const std::string& name, const std::filesystem::p
     if (!encoded) throw std::runtime_error(encoded.error().message);
     const auto written = write_file_atomically(real_file_system(), file, encoded->joined());
     if (!written) throw std::runtime_error(written.error().message);
+}
+
+// Writes the first `count` volumes of the sequence into the directory, and returns their files.
+// Throws if writing fails, or if the sequence is shorter.
+inline std::vector<std::string> write_small_volumes(std::size_t count,
+                                                    const std::filesystem::path& directory) {
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string name = small_sequence.at(i);
+        files.push_back(directory / name);
+        write_small_volume(name, files.back());
+    }
+    return files;
 }
 
 }  // namespace stormcellar::testing
