@@ -310,7 +310,7 @@ class FeatureMaker {
     const EchoGates& echo_;
     GateField& other_;  // another moment, of this sweep or another one
     const FeatureVisitor& visit_;
-    // Of the gates with echo of one radial.
+    // These hold the gates with echo of one radial.
     std::vector<float> values_;
     std::vector<std::uint32_t> sums_;
 };

@@ -97,7 +97,7 @@ class QualityMaker {
     RuleTables dual_{taught_rule(QualityRule::dual)};
     RuleTables single_{taught_rule(QualityRule::single)};
     std::vector<SweepQuality> made_;
-    // Of one sweep, to reuse their memory.
+    // Each sweep reuses the memory of the one before.
     GateField field_, other_;
     std::vector<float> log_odds_;
 };
