@@ -5,7 +5,7 @@
     >>> volume.station
     'KTLX'
     >>> volume.sweeps[0].moments["REF"].values().shape
-    (365, 460)
+    (367, 460)
 
 Volume needs NumPy alone; open_volume() and open_datatree() need xarray. All work is done by the
 library libstormcellar.so.0, which releases the interpreter's lock.

@@ -1,0 +1,125 @@
+"""Makes the wheel: the package with libstormcellar.so.0 and every library that it needs beyond those of each Linux.
+
+`pip wheel python/` builds the library in build/wheel. If $STORMCELLAR_LIBRARY names a built one, it is taken instead.
+"""
+
+import hashlib
+import os
+import pathlib
+import platform
+import re
+import shutil
+import subprocess
+
+from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel
+except ImportError:  # before setuptools 70
+    from wheel.bdist_wheel import bdist_wheel
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+WORK = SOURCE / "build" / "wheel"
+NAME = "libstormcellar.so.0"
+
+# Libraries that every Linux with a C++ compiler's runtime has. A wheel that brought its own would clash with them.
+OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|gcc_s|stdc\+\+))\.so\.\d+")
+
+# The first glibc that was published after a version of libstdc++, both by their last number (2.N and 3.4.N).
+GLIBC_OF_GLIBCXX = {29: 34, 30: 35, 33: 39}
+
+
+def run(*command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def built_library():
+    """Returns the path of the library, and builds it if the environment names none."""
+    named = os.environ.get("STORMCELLAR_LIBRARY")
+    if named:
+        return pathlib.Path(named).resolve()
+    if not (SOURCE / "capi").is_dir():
+        raise SystemExit("stormcellar: the library is built from a checkout, as in `pip wheel CHECKOUT/python`")
+    subprocess.run(["cmake", "-S", SOURCE, "-B", WORK, "-DCMAKE_BUILD_TYPE=Release", "-DSTORMCELLAR_TESTS=OFF",
+                    "-DSTORMCELLAR_BENCH=OFF"], check=True)
+    subprocess.run(["cmake", "--build", WORK, "--target", "stormcellar_shared", "--parallel"], check=True)
+    return (WORK / "capi" / NAME).resolve()
+
+
+def carry(library, package):
+    """Copies the library into the package, and the libraries that it needs into the folder libs of it.
+
+    A copied library has a hash in its name, so that no other module of the process finds or replaces it.
+    """
+    needed = {name: pathlib.Path(path) for name, path in re.findall(r"(\S+) => (/\S+)", run("ldd", library))
+              if not OF_THE_SYSTEM.fullmatch(name)}
+    folder = package / "libs"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    names = {name: re.sub(r"\.so", f"-{hashlib.sha256(path.read_bytes()).hexdigest()[:8]}.so", name, count=1)
+             for name, path in needed.items()}
+    copies = {package / NAME: (library, "$ORIGIN/libs")}
+    copies.update({folder / names[name]: (path, "$ORIGIN") for name, path in needed.items()})
+    for copy, (original, search) in copies.items():
+        shutil.copyfile(original, copy)
+        copy.chmod(0o755)
+        run("strip", "--strip-unneeded", copy)
+        wanted = run("patchelf", "--print-needed", copy).split()
+        changes = [word for name in wanted if name in names for word in ("--replace-needed", name, names[name])]
+        # One call for both would leave out some of the changes (patchelf 0.14).
+        for change in (changes, ["--set-soname", copy.name], ["--set-rpath", search]):
+            run("patchelf", *change, copy)
+    copy_licenses(needed.values(), folder)
+    return list(copies)
+
+
+def copy_licenses(libraries, folder):
+    """Copies the copyright files of Debian's packages of the libraries, whose licenses ask for this."""
+    if not shutil.which("dpkg"):
+        return
+    for library in {path.resolve() for path in libraries}:
+        found = subprocess.run(["dpkg", "-S", f"*/{library.name}"], stdout=subprocess.PIPE, text=True).stdout
+        for package in {line.split(":")[0] for line in found.splitlines()}:
+            terms = pathlib.Path("/usr/share/doc") / package / "copyright"
+            if terms.is_file():
+                shutil.copyfile(terms, folder / f"{package}.copyright")
+
+
+def glibc_minor(libraries):
+    """Returns N of the oldest glibc, 2.N, on whose systems the libraries run."""
+    symbols = "".join(run("objdump", "-T", path) for path in libraries)
+    minors = [int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", symbols)]
+    newest = max([int(minor) for minor in re.findall(r"GLIBCXX_3\.4\.(\d+)", symbols)], default=0)
+    own = int(platform.libc_ver()[1].split(".")[1])
+    minors.append(min((glibc for cxx, glibc in GLIBC_OF_GLIBCXX.items() if cxx >= newest), default=own))
+    if "GLIBC_ABI_DT_RELR" in symbols:
+        minors.append(36)
+    return max(minors)
+
+
+class Build(build_py):
+    def run(self):
+        super().run()
+        package = pathlib.Path(self.build_lib) / "stormcellar"
+        self.distribution.glibc_minor = glibc_minor(carry(built_library(), package))
+
+
+class Package(Distribution):
+    def has_ext_modules(self):
+        """Says that the package has libraries, so it is installed with those of this processor."""
+        return True
+
+
+class Wheel(bdist_wheel):
+    """Tags the wheel: any Python 3, and the Linux for which its libraries are."""
+
+    def get_tag(self):
+        minor = getattr(self.distribution, "glibc_minor", None)
+        return "py3", "none", f"manylinux_2_{minor}_{platform.machine()}" if minor else "any"
+
+
+WORK.mkdir(parents=True, exist_ok=True)
+setup(version=re.search(r"^project\(stormcellar VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text(), re.M)[1],
+      distclass=Package, cmdclass={"build_py": Build, "bdist_wheel": Wheel},
+      options={"build": {"build_base": str(WORK / "python")}, "egg_info": {"egg_base": str(WORK)}})
