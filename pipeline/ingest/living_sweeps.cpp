@@ -110,7 +110,11 @@ Result<level2::Sweep> LivingSweeps::dealiased_sweep(const ShelvedVolume& from, S
     add_nearest_dealiased(from, key, elevation_deg, known);
     if (last != nullptr && !last->sweeps.empty())
         add_nearest_dealiased(*last, last->sweeps.rbegin()->first + 1, elevation_deg, known);
-    level2::Sweep made = retrieve::dealiased_sweep(*received, options_.dealiasing, known);
+    const MomentSet gridded = from.sweeps.at(key).moments;
+    std::vector<level2::Moment> shear;
+    for (const level2::Moment moment : {level2::Moment::azsh, level2::Moment::divg})
+        if (gridded.test(static_cast<std::size_t>(moment))) shear.push_back(moment);
+    level2::Sweep made = retrieve::dealiased_sweep(*received, options_.dealiasing, known, shear);
     ++dealiased_;
     // Without space on the shelf, the next living grid dealiases the sweep again.
     (void)from.dealiased.keep(*from.shelf, key, place, made);

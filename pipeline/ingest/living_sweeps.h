@@ -31,8 +31,8 @@ class LivingSweeps {
     // Reads the sweeps of the growing volume that have one of these moments, and the sweeps of the
     // site's last volume (null: none) that the growing volume has not yet replaced. For derived
     // moments, dealiases those that were not dealiased since they came or changed, and keeps the
-    // result with their volume. The volumes need not outlive the object. Errors: those of the
-    // shelf.
+    // result with their volume, with the shear that is gridded. The volumes need not outlive the
+    // object. Errors: those of the shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments,
                                                    const retrieve::DerivedOptions& options);

@@ -120,6 +120,14 @@ level2::Sweep velocities_of(const level2::Sweep& sweep) {
     return copy;
 }
 
+// Returns true if each sweep with VELD has as many of the wanted moment.
+bool has_with_dealiased(const level2::Volume& volume, Moment wanted) {
+    return std::ranges::all_of(volume.sweeps, [wanted](const level2::Sweep& sweep) {
+        return std::ranges::count(sweep.moments, Moment::veld, &SweepMoment::moment) ==
+               std::ranges::count(sweep.moments, wanted, &SweepMoment::moment);
+    });
+}
+
 constexpr std::string_view shear_words = "shear of velocities dealiased by the rung ";
 
 // Returns the text after these words, up to a character, if all notes with them agree.
@@ -195,13 +203,16 @@ bool must_derive(std::span<const Moment> wanted, const DerivedOptions& options) 
 Result<std::vector<std::string>> add_from_dealiased(level2::Volume& volume, Moment wanted,
                                                     const DerivedOptions& options) {
     if (wanted == Moment::veld) return std::vector<std::string>{};
+    const std::vector shear_note = {
+        fmt::format("{}{}", shear_words, dealiasing_name(options.dealiasing))};
+    if (wanted != Moment::srv && has_with_dealiased(volume, wanted)) return shear_note;
     for (level2::Sweep& sweep : volume.sweeps)
         std::erase_if(sweep.moments,
                       [&](const SweepMoment& kind) { return kind.moment == wanted; });
     if (wanted == Moment::srv) return add_storm_relative(volume, options.motion);
     const auto shear = add_shear_moments(volume, read_folds(volume), std::array{wanted});
     if (!shear) return pass_on(shear);
-    return std::vector{fmt::format("{}{}", shear_words, dealiasing_name(options.dealiasing))};
+    return shear_note;
 }
 
 Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
@@ -224,10 +235,13 @@ Result<DerivedVolume> derived_velocities(const level2::Volume& volume,
 }
 
 level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
-                              std::span<const level2::Sweep> known) {
+                              std::span<const level2::Sweep> known,
+                              std::span<const Moment> wanted) {
     level2::Volume alone;
     alone.sweeps.push_back(velocities_of(sweep));
-    (void)add_dealiased_velocity(alone, rung, known);  // fails if there is nothing to dealias
+    const auto dealiased = add_dealiased_velocity(alone, rung, known);
+    // Both fail only if the sweep has no velocities that can be dealiased.
+    if (dealiased) (void)add_shear_moments(alone, *dealiased, wanted);
     return std::move(alone.sweeps.front());
 }
 

@@ -95,6 +95,35 @@ TEST_F(Living, EachSweepIsDealiasedOnceAndNearlyAsInTheWholeVolume) {
     }
 }
 
+// 2026-11-30: each living grid of AZSH computed the shear of all sweeps again, and the national
+// feed fell behind.
+TEST_F(Living, EachSweepIsShelvedWithItsShear) {
+    const std::vector<std::byte> bytes = real_bytes(rain);
+    append_to(directory_ / rain_name, bytes);
+    FollowedFile::Options options;
+    options.moments = {Moment::veld, Moment::azsh};
+    options.scratch = directory_.path();
+    const auto followed = FollowedFile::begin(directory_ / rain_name, options);
+    ASSERT_TRUE(followed);
+    ASSERT_TRUE((*followed)->read_to(bytes.size()));
+    const MomentSet moments = only(Moment::veld) | only(Moment::azsh);
+    for (const bool is_shelved : {false, true}) {
+        auto living = LivingSweeps::read((*followed)->kept(), nullptr, moments, {});
+        ASSERT_TRUE(living) << living.error().message;
+        EXPECT_EQ(living->dealiased() == 0, is_shelved);
+        level2::Volume& made = living->volume_of(Moment::azsh);
+        level2::Volume expected = made;
+        for (level2::Sweep& sweep : expected.sweeps)
+            EXPECT_EQ(std::erase_if(sweep.moments,
+                                    [](const auto& one) { return one.moment == Moment::azsh; }),
+                      1U);
+        ASSERT_TRUE(retrieve::add_from_dealiased(expected, Moment::azsh, {}));
+        for (std::size_t i = 0; i < made.sweeps.size(); ++i)
+            EXPECT_EQ(made.sweeps[i].find(Moment::azsh)->codes16,
+                      expected.sweeps[i].find(Moment::azsh)->codes16);
+    }
+}
+
 int dealiased_in(const std::vector<IngestOutcome>& outcomes) {
     return std::accumulate(outcomes.begin(), outcomes.end(), 0, [](int sum, const auto& outcome) {
         return sum + outcome.dealiased_sweeps;

@@ -102,13 +102,15 @@ struct DerivedVolume {
                                                        std::span<const level2::Moment> wanted,
                                                        const DerivedOptions& options = {});
 
-// Returns a copy of a sweep that has only its velocities and VELD. `known` votes as in dealias().
+// Returns a copy of a sweep that has only its velocities, VELD, and those of AZSH and DIVG that are
+// wanted. `known` votes as in dealias().
 [[nodiscard]] level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
-                                            std::span<const level2::Sweep> known);
+                                            std::span<const level2::Sweep> known,
+                                            std::span<const level2::Moment> wanted = {});
 
 // Adds SRV, AZSH or DIVG to a volume that has VELD, as add_derived_moments() does, and returns the
-// notes. Does nothing for VELD. Errors: not_found if SRV is wanted and the wind profile gives no
-// motion.
+// notes. Does nothing for VELD, and keeps AZSH and DIVG if all sweeps with VELD have them. Errors:
+// not_found if SRV is wanted and the wind profile gives no motion.
 [[nodiscard]] Result<std::vector<std::string>> add_from_dealiased(level2::Volume& volume,
                                                                   level2::Moment wanted,
                                                                   const DerivedOptions& options);
