@@ -1,17 +1,10 @@
 #include "stormcellar/grid/grid.h"
 
-#include <algorithm>
-#include <memory>
+#include <optional>
 #include <utility>
 
+#include "capi/grid_handle.h"
 #include "capi/guarded.h"
-#include "capi/volume_handle.h"
-#include "stormcellar/grid/gridder.h"
-
-struct stormcellar_grid {
-    stormcellar::grid::Grid grid;
-    bool is_mean_of_cells = false;
-};
 
 namespace stormcellar::capi {
 namespace {
@@ -23,72 +16,21 @@ static_assert(static_cast<int>(grid::CellStatus::value) == STORMCELLAR_CELL_VALU
 static_assert(static_cast<int>(grid::CellStatus::ambiguous) == STORMCELLAR_CELL_AMBIGUOUS);
 static_assert(sizeof(grid::CellStatus) == 1);
 
-Result<grid::SitePosition> site_of(const level2::Volume& volume) {
-    const auto antenna = level2::antenna_position(volume);
-    if (!antenna)
-        return fail(ErrorCode::not_found, "the position of the radar is unknown; name the station");
-    return grid::SitePosition{volume.station, antenna->latitude_deg, antenna->longitude_deg,
-                              antenna->altitude_m};
-}
-
-Result<grid::GridSpec> spec_of(const stormcellar_grid_options& options,
-                               const grid::SitePosition& site) {
-    const bool is_elsewhere = options.has_center != 0;
-    grid::GridSpec spec =
-        grid::default_spec(is_elsewhere ? options.center_latitude_deg : site.latitude_deg,
-                           is_elsewhere ? options.center_longitude_deg : site.longitude_deg);
-    if (options.columns != 0) spec.nx = options.columns;
-    if (options.rows != 0) spec.ny = options.rows;
-    if (options.spacing_m != 0) spec.spacing_m = options.spacing_m;
-    if (options.level_count < 0 || (options.level_count > 0 && options.levels_m == nullptr))
-        return fail(ErrorCode::bad_argument, "level_count is {}, and levels_m is {}",
-                    options.level_count, options.levels_m == nullptr ? "null" : "given");
-    if (options.level_count > 0)
-        spec.levels_m.assign(options.levels_m, options.levels_m + options.level_count);
-    if (Status valid = grid::validate(spec); !valid) return pass_on(valid);
-    return spec;
-}
-
-Result<grid::GridderOptions> gridder_of(const stormcellar_grid_options& options) {
-    grid::GridderOptions gridder;
-    if (options.moment != nullptr) {
-        const auto moment = level2::moment_from_name(options.moment);
-        if (!moment)
-            return fail(ErrorCode::bad_argument, "there is no moment '{}'", options.moment);
-        gridder.moment = *moment;
-    }
-    if (options.threads < 0) return fail(ErrorCode::bad_argument, "threads must be at least 0");
-    gridder.threads = std::max(1, options.threads);
-    if (options.interpolation != nullptr) {
-        const auto row = std::ranges::find(grid::interpolation_facts, options.interpolation,
-                                           &grid::InterpolationFacts::name);
-        if (row == grid::interpolation_facts.end())
-            return fail(ErrorCode::bad_argument,
-                        "interpolation is '{}'; it must be nearest, linear, eight-point or "
-                        "beam-weighted",
-                        options.interpolation);
-        gridder.method.interpolation = row->interpolation;
-    }
-    if (options.mean_of_cell != 0) gridder.method.cell = grid::CellExtent::area;
-    if (options.average_in_z != 0) gridder.method.averaging = grid::Averaging::in_z;
-    return gridder;
-}
-
 Status make(const stormcellar_volume* volume, const stormcellar_grid_options* options,
             stormcellar_grid** grid) {
     if (volume == nullptr || grid == nullptr) return is_null(volume == nullptr ? "volume" : "grid");
     *grid = nullptr;
     const auto all = take(options);
     if (!all) return pass_on(all);
-    const auto site = site_of(volume->volume);
+    const auto site = site_of(*volume);
     if (!site) return pass_on(site);
-    const auto spec = spec_of(*all, *site);
+    const auto spec = spec_of(*all, {*site});
     if (!spec) return pass_on(spec);
     const auto gridder = gridder_of(*all);
     if (!gridder) return pass_on(gridder);
-    const auto geometry = grid::make_column_geometry(*site, *spec);
-    if (!geometry) return pass_on(geometry);
-    auto made = grid::make_grid(volume->volume, *site, **geometry, *gridder);
+    const auto chain = chain_of(*all, gridder->moment, std::nullopt);
+    if (!chain) return pass_on(chain);
+    auto made = grid_of(*volume, *site, *spec, *chain, *gridder);
     if (!made) return pass_on(made);
     *grid = new stormcellar_grid{std::move(*made), all->mean_of_cell != 0};
     return {};

@@ -84,7 +84,7 @@ void write_gates(const level2::SweepMoment& moment, Value beyond, Value* to, Res
 
 Result<const level2::Sweep*> sweep_of(const stormcellar_volume* volume, std::int32_t sweep) {
     if (volume == nullptr) return is_null("volume");
-    const auto& sweeps = volume->volume.sweeps;
+    const auto& sweeps = volume->source.volume.sweeps;
     if (sweep < 0 || static_cast<std::size_t>(sweep) >= sweeps.size())
         return fail(ErrorCode::bad_argument, "there is no sweep {}; there are {}", sweep,
                     sweeps.size());

@@ -1,11 +1,16 @@
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <sstream>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "capi/guarded.h"
 #include "capi/volume_handle.h"
+#include "level2/decode/problem_notes.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/retrieve/derived_moments.h"
@@ -28,18 +33,27 @@ Result<level2::DecodeOptions> decode_options(const stormcellar_read_options& opt
 // Takes the volume of this number, from 1, out of a file.
 Result<std::unique_ptr<stormcellar_volume>> taken(level2::Decoded decoded, int number) {
     auto handle = std::make_unique<stormcellar_volume>();
+    grid::SourceVolume& source = handle->source;
     for (const level2::Problem& problem : decoded.report.problems)
         handle->problems.push_back(problem.text());
-    handle->is_complete = decoded.report.complete;
+    source.partial = !decoded.report.complete;
+    source.notes = level2::notes_of(decoded.report);
+    std::vector<std::string> troubles;
+    if (decoded.report.rda_status) troubles = level2::rda_troubles(*decoded.report.rda_status);
     auto volumes = level2::split_volumes(std::move(decoded));
     handle->volumes_in_file = static_cast<int>(volumes.size());
     const auto index = static_cast<std::size_t>(std::max(number, 1) - 1);
     if (index >= volumes.size())
         return fail(ErrorCode::not_found, "there is no volume {}; the file has {}", index + 1,
                     volumes.size());
-    handle->volume = std::move(volumes[index]);
+    source.volume = std::move(volumes[index]);
     // The report is about the whole file, so also check that this volume ended.
-    handle->is_complete = handle->is_complete && level2::has_ended(handle->volume);
+    source.partial = source.partial || !level2::has_ended(source.volume);
+    if (!troubles.empty())
+        source.radar_troubles = {
+            fmt::format("{}: {}", source.volume.station, fmt::join(troubles, ", "))};
+    const auto antenna = level2::antenna_position(source.volume);
+    if (antenna && antenna->disagreement) source.notes.push_back(*antenna->disagreement);
     return handle;
 }
 
@@ -85,8 +99,9 @@ Status derive(const stormcellar_volume* volume, const char* names,
     deriving.quality = all->quality;
     auto handle = std::make_unique<stormcellar_volume>(*volume);
     if (retrieve::must_derive(*moments, deriving)) {
-        const auto made = retrieve::add_derived_moments(handle->volume, *moments, deriving);
+        auto made = retrieve::add_derived_moments(handle->source.volume, *moments, deriving);
         if (!made) return pass_on(made);
+        std::ranges::move(made->notes, std::back_inserter(handle->source.notes));
     }
     *derived = handle.release();
     return {};
@@ -96,16 +111,16 @@ Status describe(const stormcellar_volume* volume, stormcellar_volume_facts* to) 
     if (volume == nullptr) return is_null("volume");
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     stormcellar_volume_facts facts{};
-    copy_text(volume->volume.station, facts.station, sizeof facts.station);
-    const auto antenna = level2::antenna_position(volume->volume);
+    copy_text(volume->source.volume.station, facts.station, sizeof facts.station);
+    const auto antenna = level2::antenna_position(volume->source.volume);
     facts.latitude_deg = antenna ? antenna->latitude_deg : unknown;
     facts.longitude_deg = antenna ? antenna->longitude_deg : unknown;
     facts.altitude_m = antenna ? antenna->altitude_m : unknown;
-    const auto start = volume->volume.start_time();
+    const auto start = volume->source.volume.start_time();
     facts.start_ms = start ? milliseconds_of(*start) : unknown_time;
-    facts.vcp = volume->volume.vcp.value_or(-1);
-    facts.sweeps = static_cast<std::int32_t>(volume->volume.sweeps.size());
-    facts.complete = volume->is_complete ? 1 : 0;
+    facts.vcp = volume->source.volume.vcp.value_or(-1);
+    facts.sweeps = static_cast<std::int32_t>(volume->source.volume.sweeps.size());
+    facts.complete = volume->source.partial ? 0 : 1;
     facts.volumes = volume->volumes_in_file;
     facts.problems = static_cast<std::int32_t>(volume->problems.size());
     return give(facts, to);
@@ -136,9 +151,12 @@ stormcellar_code stormcellar_volume_open(const char* path, const stormcellar_rea
                                          stormcellar_volume** volume, stormcellar_error* error) {
     return capi::guarded(error, [&]() -> Status {
         if (path == nullptr) return capi::is_null("path");
-        return capi::open_with(options, volume, [&](const level2::DecodeOptions& decoding) {
-            return level2::decode_file(path, decoding);
-        });
+        Status opened =
+            capi::open_with(options, volume, [&](const level2::DecodeOptions& decoding) {
+                return level2::decode_file(path, decoding);
+            });
+        if (opened) (*volume)->file = std::filesystem::path{path}.filename().string();
+        return opened;
     });
 }
 

@@ -7,15 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "grid/place/source_volume.h"
 #include "stormcellar.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/volume.h"
 
 struct stormcellar_volume {
-    stormcellar::level2::Volume volume;
+    stormcellar::grid::SourceVolume source;  // without the site, which may be unknown
+    std::string file;                        // its name without directories, or empty
     std::vector<std::string> problems;
-    bool is_complete = false;
     int volumes_in_file = 1;
 };
 

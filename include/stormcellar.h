@@ -65,7 +65,7 @@ typedef struct stormcellar_read_options {
     int32_t threads;      // 0: one
     int32_t volume;       // number in a file of several volumes, from 1; 0: the first
     const char* moments;  // names between blanks, "REF VEL", to decode only these; null: all
-    const char* station;  // the station, if the file does not name it: "KTLX"; null: unknown
+    const char* station;  // if the file does not name it, "KTLX"; null: from the name of the file
 } stormcellar_read_options;
 
 // Reads a volume from a file, from bytes, or from the descriptor of a regular file, from its
@@ -229,6 +229,26 @@ STORMCELLAR_API stormcellar_code stormcellar_grid_make(const stormcellar_volume*
                                                        const stormcellar_grid_options* options,
                                                        stormcellar_grid** grid,
                                                        stormcellar_error* error);
+
+typedef struct stormcellar_mosaic_options {
+    size_t size;
+    const char* overlap;  // mean, maximum, nearest or distance-weighted; null: as the moment allows
+    double length_m;      // a site at distance r has the weight exp(-r^2 / length^2); 0: 250 km
+} stormcellar_mosaic_options;
+
+// Grids volumes of several radars, or of several times, and merges them for one instant, the middle
+// of the newest volumes, as `stormcellar grid FILE FILE` does. Without a center, the grid reaches
+// 230 km beyond the radars. Rules and accuracy: docs/geometry.md.
+STORMCELLAR_API stormcellar_code stormcellar_mosaic_make(
+    const stormcellar_volume* const* volumes, size_t count, const stormcellar_grid_options* options,
+    const stormcellar_mosaic_options* mosaic_options, stormcellar_grid** mosaic,
+    stormcellar_error* error);
+// Merges grids of different radars, which must have the same moment and the same cells, as they
+// are: echo does not move to a common time. Values are rounded to the steps of the cache (0.5 dBZ).
+STORMCELLAR_API stormcellar_code
+stormcellar_grid_merge(const stormcellar_grid* const* grids, size_t count,
+                       const stormcellar_mosaic_options* options, stormcellar_grid** merged,
+                       stormcellar_error* error);
 // Frees a grid; null is allowed.
 STORMCELLAR_API void stormcellar_grid_free(stormcellar_grid* grid);
 

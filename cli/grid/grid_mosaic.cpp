@@ -17,15 +17,13 @@
 namespace stormcellar::cli {
 namespace {
 
-constexpr double beyond_sites_m = 230'000;  // extent of a mosaic beyond its outermost sites
-
 // Returns the width and height in kilometers of the smallest grid of whole cells that holds all
 // sites and 230 km around them.
 std::array<double, 2> extent_km_of(const std::vector<grid::SitePosition>& sites,
                                    grid::GeoPoint center, double spacing_km) {
     const grid::HalfExtent half = grid::half_extent_of(sites, center);
     const auto whole = [&](double half_m) {
-        const double cells = std::ceil((half_m + beyond_sites_m) / 1000 / spacing_km);
+        const double cells = std::ceil((half_m + grid::seen_beyond_sites_m) / 1000 / spacing_km);
         return 2 * cells * spacing_km;
     };
     return {whole(half.x_m), whole(half.y_m)};

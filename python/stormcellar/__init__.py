@@ -12,11 +12,11 @@ library libstormcellar.so.0, which releases the interpreter's lock.
 """
 
 from ._library import Error, version
-from .grids import CellState, Grid, grid
+from .grids import CellState, Grid, grid, mosaic
 from .volume import Moment, State, Sweep, Volume
 
-__all__ = ["CellState", "Error", "Grid", "Moment", "State", "Sweep", "Volume", "grid", "open_datatree", "open_volume",
-           "version"]
+__all__ = ["CellState", "Error", "Grid", "Moment", "State", "Sweep", "Volume", "grid", "mosaic", "open_datatree",
+           "open_volume", "version"]
 
 
 def __getattr__(name):

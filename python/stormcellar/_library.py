@@ -56,6 +56,10 @@ class GridOptions(Structure):
                 ("interpolation", c_char_p), ("mean_of_cell", c_int32), ("average_in_z", c_int32), ("threads", c_int32)]
 
 
+class MosaicOptions(Structure):
+    _fields_ = [("size", c_size_t), ("overlap", c_char_p), ("length_m", c_double)]
+
+
 class GridFacts(Structure):
     _fields_ = [("size", c_size_t), ("moment", c_char * 8), ("unit", c_char * 16), ("columns", c_int32),
                 ("rows", c_int32), ("levels", c_int32), ("mean_of_cell", c_int32), ("spacing_m", c_double),
@@ -89,11 +93,13 @@ _FUNCTIONS = {
     "moment_describe": [c_void_p, c_int32, c_int32, POINTER(MomentFacts)],
     "moment_codes": [c_void_p, c_int32, c_int32, POINTER(c_void_p)],
     "moment_values": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
+    "mosaic_make": [c_void_p, c_size_t, POINTER(GridOptions), POINTER(MosaicOptions), POINTER(c_void_p)],
     "moment_states": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
     "grid_make": [c_void_p, POINTER(GridOptions), POINTER(c_void_p)],
     "grid_describe": [c_void_p, POINTER(GridFacts)],
     "grid_levels": [c_void_p, c_void_p],
     "grid_values": [c_void_p, c_void_p],
+    "grid_merge": [c_void_p, c_size_t, POINTER(MosaicOptions), POINTER(c_void_p)],
     "grid_states": [c_void_p, c_void_p],
 }
 for _name, _arguments in _FUNCTIONS.items():

@@ -104,6 +104,46 @@ def grid(source, moment="REF", *, columns=0, rows=0, spacing_m=0.0, levels_m=Non
     1.5 dB rms in weather. Raises Error, also for a moment that the volume does not have.
     """
     volume = source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
+    asked = _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
+                     threads)
+    pointer = ctypes.c_void_p()
+    call("grid_make", volume._handle.pointer, ctypes.byref(asked), ctypes.byref(pointer))
+    return Grid(pointer)
+
+
+def mosaic(sources, moment="REF", *, columns=0, rows=0, spacing_m=0.0, levels_m=None, center=None, interpolation=None,
+           mean_of_cell=False, average_in_z=False, threads=1, overlap=None, length_m=0.0, **options):
+    """Merges volumes or files of several radars, or of several times, and returns a Grid for one instant, the middle of
+    the newest volumes, with the cells of `stormcellar grid FILE FILE`. Without `columns` and `rows`, the grid reaches
+    230 km beyond the radars.
+
+    `overlap`: mean, maximum, nearest or distance-weighted (where the moment allows it, the default: a radar at the
+    distance r has the weight exp(-r^2 / length_m^2), by default with 250 km). The other arguments are those of grid().
+
+    If `sources` are Grids of different radars with the same moment and the same cells, they are merged as they are:
+    echo does not move to a common time, and arguments other than `overlap` and `length_m` do not count. Values are then
+    rounded to 0.5 dBZ, or as the cache rounds the moment.
+    """
+    sources = list(sources)
+    rule = sized(_library.MosaicOptions, overlap=overlap.encode() if overlap else None, length_m=length_m)
+    pointer = ctypes.c_void_p()
+    if sources and all(isinstance(source, Grid) for source in sources):
+        call("grid_merge", _pointers(sources), len(sources), ctypes.byref(rule), ctypes.byref(pointer))
+        return Grid(pointer)
+    volumes = [source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
+               for source in sources]
+    asked = _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
+                     threads)
+    call("mosaic_make", _pointers(volumes), len(volumes), ctypes.byref(asked), ctypes.byref(rule),
+         ctypes.byref(pointer))
+    return Grid(pointer)
+
+
+def _pointers(objects):
+    return (ctypes.c_void_p * len(objects))(*(one._handle.pointer.value for one in objects))
+
+
+def _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z, threads):
     heights = np.ascontiguousarray([] if levels_m is None else levels_m, "f8")
     asked = sized(_library.GridOptions, moment=moment.encode(), columns=columns, rows=rows, spacing_m=spacing_m,
                   levels_m=heights.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) if heights.size else None,
@@ -112,6 +152,4 @@ def grid(source, moment="REF", *, columns=0, rows=0, spacing_m=0.0, levels_m=Non
                   average_in_z=average_in_z, threads=threads)
     if center is not None:
         asked.center_latitude_deg, asked.center_longitude_deg = center
-    pointer = ctypes.c_void_p()
-    call("grid_make", volume._handle.pointer, ctypes.byref(asked), ctypes.byref(pointer))
-    return Grid(pointer)
+    return asked

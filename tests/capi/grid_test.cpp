@@ -14,10 +14,6 @@
 namespace stormcellar::testing {
 namespace {
 
-struct FreeGrid {
-    void operator()(stormcellar_grid* grid) const { stormcellar_grid_free(grid); }
-};
-
 class CGrid : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -35,7 +31,7 @@ class CGrid : public ::testing::Test {
     OpenedVolume volume_;
     stormcellar_grid_options options_{};
     stormcellar_error error_{};
-    std::unique_ptr<stormcellar_grid, FreeGrid> grid_;
+    OwnedGrid grid_;
 };
 
 TEST_F(CGrid, CellsAreThoseOfTheLibrary) {

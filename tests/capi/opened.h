@@ -24,6 +24,11 @@ inline OpenedVolume opened(const std::filesystem::path& file,
     return OpenedVolume(volume);
 }
 
+struct FreeGrid {
+    void operator()(stormcellar_grid* grid) const { stormcellar_grid_free(grid); }
+};
+using OwnedGrid = std::unique_ptr<stormcellar_grid, FreeGrid>;
+
 template <class Facts>
 Facts empty_facts() {
     Facts facts{};

@@ -33,7 +33,7 @@ const std::map<std::string, Rooms> allowed = {
     {"catalog", {"archive", "base", "level2"}},
     {"grid", {"base", "accuracy", "level2"}},
     {"retrieve", {"base", "accuracy", "grid", "level2"}},
-    {"capi", {"base", "grid", "level2", "retrieve"}},
+    {"capi", {"base", "accuracy", "grid", "level2", "pipeline", "retrieve"}},
     {"cache", {"base", "grid", "level2"}},
     {"render", {"base", "accuracy", "export", "grid", "cache", "level2", "retrieve"}},
     {"synth", {"accuracy", "archive", "base", "level2", "grid"}},
