@@ -7,16 +7,22 @@ from xarray.backends import BackendEntrypoint
 from .trees import open_volume
 
 
+def _groups(source, options):
+    if options.get("time") is not None:  # xarray has made a path of the station's name
+        source = os.path.basename(source)
+    return open_volume(source, **options)
+
+
 class StormcellarBackendEntrypoint(BackendEntrypoint):
     """Opens Level II files. `group` is "sweep_0" (default), "sweep_1" and so on, or "/" for the facts of the volume.
     Further arguments are those of stormcellar.open_volume()."""
 
     description = "Level II files of weather radars (NEXRAD, TDWR)"
     open_dataset_parameters = ("filename_or_obj", "drop_variables", "group", "moments", "derive", "sort", "status",
-                               "packed", "station", "volume")
+                               "packed", "station", "volume", "time", "bucket")
 
     def open_dataset(self, filename_or_obj, *, drop_variables=None, group="sweep_0", **options):
-        groups = open_volume(filename_or_obj, **options)
+        groups = _groups(filename_or_obj, options)
         name = "/" + (group or "").strip("/")
         if name not in groups:
             raise ValueError(f"there is no group {group!r}; the groups are {', '.join(groups)}")
@@ -24,7 +30,7 @@ class StormcellarBackendEntrypoint(BackendEntrypoint):
 
     def open_groups_as_dict(self, filename_or_obj, *, drop_variables=None, **options):
         return {name: dataset.drop_vars(drop_variables or (), errors="ignore")
-                for name, dataset in open_volume(filename_or_obj, **options).items()}
+                for name, dataset in _groups(filename_or_obj, options).items()}
 
     def open_datatree(self, filename_or_obj, *, drop_variables=None, **options):
         from xarray import DataTree

@@ -11,7 +11,7 @@ import weakref
 
 import numpy as np
 
-from . import _library
+from . import _library, sources
 from ._library import call, sized
 
 
@@ -119,15 +119,21 @@ class Sweep:
 class Volume:
     """A volume of a Level II file of any year, compressed or not.
 
-    `source` is a path, bytes, or an open file, which is read from its position. `moments` ("REF VEL", or a list) leaves
-    out all others. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot
-    be read; a damaged file gives what is whole, and `problems` says what is lost.
+    `source` is a path, bytes, an open file, which is read from its position, a list of chunks (sources.joined), or with
+    `time` a station: then the volume that it began last before the time is fetched from the public bucket, or from
+    the address `bucket`, and a line is logged (sources.fetched). `moments` ("REF VEL", or a list) leaves out all
+    others. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot be read; a
+    damaged file gives what is whole, and `problems` says what is lost.
 
     `station`, `latitude_deg`, `longitude_deg`, `altitude_m` (of the antenna), `start` (datetime64[ms]), `vcp` (None if
     unknown), `complete`, `problems` (a list of lines), `volumes` (how many the file has) and `sweeps` describe it.
     """
 
-    def __init__(self, source, *, moments=None, threads=1, volume=0, station=None):
+    def __init__(self, source, *, moments=None, threads=1, volume=0, station=None, time=None, bucket=sources.BUCKET):
+        if time is not None:
+            source, station = sources.fetched(source, time, bucket), station or source.upper()
+        elif isinstance(source, (list, tuple)):
+            source = sources.joined(source)
         options = sized(_library.ReadOptions, threads=threads, volume=volume, moments=_words(moments),
                         station=station.encode() if station else None)
         pointer = ctypes.c_void_p()
