@@ -55,7 +55,7 @@ class Server {
 // Replaces the files of the page by those in a directory, so that changes of the page need no build of the server.
 const takePageFrom = (page, directory) =>
   page.route(/\/view\/([\w.]*)(#|$)/, async (route) => {
-    const file = join(directory, basename(new URL(route.request().url()).pathname).replace('view', 'index.html'));
+    const file = join(directory, basename(new URL(route.request().url()).pathname).replace(/^view$/, 'index.html'));
     const response = await route.fetch();
     await (existsSync(file) ? route.fulfill({ response, body: readFileSync(file) }) : route.fulfill({ response }));
   });
