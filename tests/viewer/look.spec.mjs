@@ -118,6 +118,31 @@ test('mouse, keys and fingers move the view', async ({ viewer, server: { station
   await viewer.changes('the compass turns north up', 'azimuth', () => viewer.press('compass'), (before, after) => before !== 180 && after === 180);
 });
 
+// 2026-11-28: nothing led back from a view without echo, not even choosing the radar again.
+test('Reset view leads back to the first view', async ({ page, viewer, server: { station } }) => {
+  await viewer.resize(796, 532);
+  await viewer.open(`domain=${station}&moment=REF&least=30`);
+  const view = async () => Promise.all(['azimuth', 'tilt', 'zoom', 'field-of-view', 'look-at-km', 'exaggeration'].map((name) => viewer.told(name)));
+  const first = await view();
+  const button = viewer.byId('reset-view');
+  await expect(button, 'nothing to reset').toBeHidden();
+  const lose = () => viewer.show(`domain=${station}&moment=REF&least=30&azimuth=20&tilt=85&zoom=30&look-at-km=-40,455,-110&exaggeration=1`);
+  await lose();
+  await viewer.settled(() => button.click());
+  expect(await view(), 'after the button').toEqual(first);
+  await expect(button).toBeHidden();
+  await expect(viewer.byId('picture'), 'keys work').toBeFocused();
+  await lose();
+  await viewer.settled(() => viewer.key('0'));
+  expect(await view(), 'after the key').toEqual(first);
+  // The address is right after a reload, too.
+  await viewer.settled(() => viewer.drag([250, 300], [40, 0]));
+  await viewer.settled(() => viewer.key('0'));
+  await page.reload();
+  await viewer.drawn();
+  expect(await view(), 'after a reload').toEqual(first);
+});
+
 test("a click reads the column as the server's own probe does", async ({ page, viewer, server }) => {
   const { station, address } = server;
   await viewer.resize(796, 532);

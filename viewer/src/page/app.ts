@@ -4,7 +4,7 @@
 
 import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../atlas/loaded_grid';
-import { ViewState, addressOf } from '../scene/view_state';
+import { ViewState, addressOf, usualState } from '../scene/view_state';
 import { ColorTable } from '../wire/color_tables';
 import { PlayerState, stopped } from '../time/player';
 import { Timeline, toleratedFutureMs } from '../time/timeline';
@@ -147,6 +147,16 @@ export class App {
         this.state.camera = camera;
         this.addressBar.writeSoon();
         this.tell('camera');
+    }
+    // Returns true if the camera and the heights are those with which the page first shows a grid.
+    get isFirstView(): boolean {
+        const { camera, exaggeration } = this.state;
+        return exaggeration === usualState.exaggeration && JSON.stringify(camera) === JSON.stringify(usualState.camera);
+    }
+    resetView(): void {
+        this.state.exaggeration = usualState.exaggeration;
+        this.moved({ ...usualState.camera });
+        this.changed();
     }
     // Returns a link to what is shown now, even if this page follows the newest.
     get link(): string {

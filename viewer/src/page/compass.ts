@@ -1,8 +1,9 @@
-// Shows where north is in the picture, also in a saved picture. A press turns north up.
+// Shows where north is in the picture, also in a saved picture. A press turns north up. Once the view has changed, a
+// button leads back to the first view.
 
 import { shades } from '../renderer/shades';
 import { App } from './app';
-import { fontOf, labeledButton, textScale } from './dom';
+import { button, fontOf, labeledButton, textScale } from './dom';
 import { Drawing } from './drawing';
 import { haloed } from './labels';
 import { texts } from './texts';
@@ -16,7 +17,14 @@ export function addCompass(app: App, drawing: Drawing): void {
         app.moved({ ...app.state.camera, azimuthDeg: northUpDeg });
         drawing.picture.focus();
     });
-    drawing.labels.after(place);
+    const reset = button('reset-view', texts.resetView, () => {
+        app.resetView();
+        drawing.picture.focus();
+    });
+    drawing.labels.after(place, reset);
+    const putReset = () => (reset.hidden = !app.shown || app.isFirstView);
+    app.on(['shown', 'view', 'camera'], putReset);
+    putReset();
     drawing.addOverlay((pen) => {
         const { left, top, width, height } = place.getBoundingClientRect();
         pen.translate(left + width / 2, top + height / 2);

@@ -33,6 +33,7 @@ export class Keys {
         for (const name of ['+', '=']) this.add(name, () => this.zoom(1.25));
         this.add('-', () => this.zoom(0.8));
         this.add('p', () => this.togglePerspective());
+        this.add('0', () => app.resetView());
         this.add('l', () => app.playback.follow());
         this.add(' ', () => app.playback.play());
         this.add(',', () => app.playback.step(-1));

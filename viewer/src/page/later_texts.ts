@@ -77,6 +77,7 @@ export const panelTexts = {
                 ['S', 'from the south'],
                 ['O', 'obliquely'],
                 ['P', 'perspective or parallel'],
+                ['0', 'back to the first view'],
                 ['H', 'map of all radars'],
             ],
         ],
@@ -125,6 +126,7 @@ export const panelTexts = {
     // Tooltips of controls by their ids.
     tips: {
         'to-map': 'Map of all radars (H)',
+        'reset-view': 'Back to the first camera and heights (0)',
         open: 'Colors, opacity, camera, units, tools',
         'layers-open': 'What is drawn: volume, sections, tilts, storms',
         'scan-open': 'Cuts of this scan: angle, time, Nyquist velocity, moments, progress',

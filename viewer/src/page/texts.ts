@@ -102,6 +102,7 @@ export const texts = {
     // Titles of the server's tables by the beginnings of their names.
     tables: { 'smooth-clear-air': 'Clear air', 'smooth-': 'Smooth', 'nws-': 'NWS', 'safe-': 'Color-blind safe' },
     northUp: 'North up',
+    resetView: 'Reset view',
     notSeen: 'not seen',
     noEcho: 'no echo',
     rangeFolded: 'range folded',
