@@ -48,10 +48,10 @@ TEST(ConnectionWatch, TheKernelHoldsLittleOfManyBodies) {
     const Descriptor last{::socket(AF_INET, SOCK_STREAM, 0)};
     ConnectionWatch watch({}, {});
     watch.opened(made_connection(1), first.number(), "192.0.2.1");
-    EXPECT_EQ(most_unsent(first.number()), 2 << 20);
-    for (std::uintptr_t other = 2; other <= 128; ++other)
+    EXPECT_EQ(most_unsent(first.number()), 4 << 20);
+    for (std::uintptr_t other = 2; other <= 64; ++other)
         watch.opened(made_connection(other), -1, "192.0.2.1");
-    watch.opened(made_connection(129), last.number(), "192.0.2.1");
+    watch.opened(made_connection(65), last.number(), "192.0.2.1");
     EXPECT_EQ(most_unsent(last.number()), 256 << 10);
 }
 

@@ -28,11 +28,12 @@ constexpr int most_cut_at_once = 16;
 // A new connection that has sent nothing for this long counts as idle.
 constexpr std::chrono::milliseconds first_words_within{250};
 // Number of bytes of a body that may wait in the kernel beyond the client's window, with few
-// connections and with many. With the smaller number, a volume takes twice the processor time,
-// because the server is woken for small pieces. With the larger number, slow readers on all
-// connections would take gigabytes.
-constexpr int most_unsent_of_few = 2 * 1024 * 1024, most_unsent_of_many = 256 * 1024;
-constexpr std::size_t few_connections = 128;
+// connections and with many. The larger number is what Linux holds by default, and more than most
+// packed grids. With the smaller number, a volume takes twice the processor time, because the
+// server is woken for small pieces. With the larger number, slow readers on all connections would
+// take gigabytes.
+constexpr int most_unsent_of_few = 4 * 1024 * 1024, most_unsent_of_many = 256 * 1024;
+constexpr std::size_t few_connections = 64;
 
 // Returns how many bytes the other side has acknowledged since the connection was opened.
 std::uint64_t acknowledged_bytes(int descriptor) {
