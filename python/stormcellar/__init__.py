@@ -11,15 +11,20 @@ Volume needs NumPy alone; open_volume() and open_datatree() need xarray. All wor
 library libstormcellar.so.0, which releases the interpreter's lock.
 """
 
+import typing
+
 from ._library import Error, version
 from .grids import CellState, Grid, grid, mosaic
 from .volume import Moment, State, Sweep, Volume
+
+if typing.TYPE_CHECKING:
+    from .trees import open_datatree, open_volume
 
 __all__ = ["CellState", "Error", "Grid", "Moment", "State", "Sweep", "Volume", "grid", "mosaic", "open_datatree",
            "open_volume", "version"]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> typing.Any:
     """Imports xarray only when a function that needs it is used."""
     if name in ("open_datatree", "open_volume"):
         from . import trees

@@ -1,5 +1,7 @@
 """The functions of libstormcellar.so.0 (include/stormcellar.h) by ctypes."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 import pathlib
@@ -11,9 +13,18 @@ CODES = ("ok", "bad_argument", "not_found", "empty", "truncated", "corrupt", "un
 
 
 class Error(Exception):
-    """A failure of the library: one line for people, and `code`, a name of CODES, for programs."""
+    """A failure of the library: one line for people, and `code`, a name of CODES, for programs.
 
-    def __init__(self, message, code):
+    >>> try:
+    ...     stormcellar.Volume("/nothing/here")
+    ... except stormcellar.Error as error:
+    ...     print(error.code)
+    not_found
+    """
+
+    code: str
+
+    def __init__(self, message: str, code: str):
         super().__init__(message)
         self.code = code
 
@@ -128,6 +139,10 @@ def free_grid(handle):
     _library.stormcellar_grid_free(handle)
 
 
-def version():
-    """Returns the version of the library, such as '0.2.0'."""
+def version() -> str:
+    """Returns the version of the library.
+
+    >>> len(version().split("."))
+    3
+    """
     return _library.stormcellar_version().decode()

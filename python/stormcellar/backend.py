@@ -15,7 +15,13 @@ def _groups(source, options):
 
 class StormcellarBackendEntrypoint(BackendEntrypoint):
     """Opens Level II files. `group` is "sweep_0" (default), "sweep_1" and so on, or "/" for the facts of the volume.
-    Further arguments are those of stormcellar.open_volume()."""
+    Further arguments are those of stormcellar.open_volume().
+
+    >>> import xarray
+    >>> sweep = xarray.open_dataset(FILE, engine=StormcellarBackendEntrypoint, group="sweep_1")
+    >>> int(sweep["sweep_number"]), dict(sweep["VRADH"].sizes)
+    (1, {'azimuth': 367, 'range': 920})
+    """
 
     description = "Level II files of weather radars (NEXRAD, TDWR)"
     open_dataset_parameters = ("filename_or_obj", "drop_variables", "group", "moments", "derive", "sort", "status",

@@ -1,8 +1,15 @@
 """Volumes as radars of Py-ART."""
 
+from __future__ import annotations
+
+import typing
+
 import numpy as np
 
-from .trees import fixed_angle
+from .volume import Volume, fixed_angle
+
+if typing.TYPE_CHECKING:
+    import pyart.core
 
 # Py-ART's usual names of fields.
 _FIELDS = {"REF": "reflectivity", "VEL": "velocity", "SW": "spectrum_width", "ZDR": "differential_reflectivity",
@@ -10,11 +17,12 @@ _FIELDS = {"REF": "reflectivity", "VEL": "velocity", "SW": "spectrum_width", "ZD
            "VELD": "corrected_velocity", "KDP": "specific_differential_phase"}
 
 
-def to_pyart(volume):
+def to_pyart(volume: Volume) -> pyart.core.Radar:
     """Returns the volume as a pyart.core.Radar, with Py-ART's usual names of fields.
 
     All rays share one range axis: that of the finest gates, out to the last gate of any moment. A place beyond the
     gates of a moment, or in a gate without a value, is masked. A place in a longer gate has the value of that gate.
+    Units are those of the file; ranges are in meters, angles in degrees. Raises ValueError if there are no moments.
     """
     from pyart.config import get_metadata
     from pyart.core import Radar

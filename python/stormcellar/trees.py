@@ -1,13 +1,20 @@
 """Volumes as xarray datasets, in the layout of xradar 0.12 (FM 301, CfRadial 2).
 
-One thing differs from xradar: a gate without a value is NaN (with packed=True it has a code that decodes to NaN), and its state is in a variable of its own,
-`DBZH_status`; xradar gives echo below the threshold the value of its lowest code.
+One thing differs from xradar: a gate without a value is NaN (with packed=True it has a code that decodes to NaN), and
+its state is in a variable of its own, `DBZH_status`; xradar gives echo below the threshold the value of its lowest code.
 """
+
+from __future__ import annotations
+
+import typing
 
 import numpy as np
 import xarray as xr
 
-from .volume import State, Volume
+from .volume import State, Volume, fixed_angle
+
+if typing.TYPE_CHECKING:
+    from .volume import Source, Words
 
 # Our moments: name in FM 301, standard name, long name, unit. ICD 2620002; CfRadial 2.1, section 5.
 _MOMENTS = {
@@ -26,7 +33,8 @@ _STATES = {"flag_values": np.array([int(state) for state in State], "u1"),
            "flag_meanings": " ".join(state.name for state in State)}
 
 
-def open_volume(source, *, moments=None, derive=(), sort=True, status=True, packed=False, **options):
+def open_volume(source: Volume | Source, *, moments: Words | None = None, derive: Words = (), sort: bool = True,
+                status: bool = True, packed: bool = False, **options: typing.Any) -> dict[str, xr.Dataset]:
     """Returns a volume as a dict of datasets: "/" and "/sweep_0", "/sweep_1" and so on, by the order of the file.
 
     `source` and `options` are those of Volume. `derive` names derived moments (Volume.derive). Rays are sorted by
@@ -35,7 +43,14 @@ def open_volume(source, *, moments=None, derive=(), sort=True, status=True, pack
     xarray.decode_cf() reads them. `status` adds the state of each gate as uint8, such as DBZH_status.
 
     A moment with longer gates than another of its sweep is repeated on the range axis of the finer one, if its gates
-    begin and end there; else it has a range axis of its own, such as range_DBZH.
+    begin and end there; else it has a range axis of its own, such as range_DBZH. Ranges and heights are in meters,
+    angles in degrees, times in UTC. Raises the errors of Volume.
+
+    >>> datasets = stormcellar.open_volume(FILE)
+    >>> dict(datasets["/sweep_1"]["VRADH"].sizes)
+    {'azimuth': 367, 'range': 920}
+    >>> datasets["/"].attrs["scan_name"]
+    'VCP-11'
     """
     volume = source if isinstance(source, Volume) else Volume(source, moments=moments, **options)
     if derive:
@@ -44,8 +59,13 @@ def open_volume(source, *, moments=None, derive=(), sort=True, status=True, pack
     return {"/": _root_dataset(volume), **sweeps}
 
 
-def open_datatree(source, **options):
-    """Returns a volume as an xarray.DataTree. The arguments are those of open_volume()."""
+def open_datatree(source: Volume | Source, **options: typing.Any) -> xr.DataTree:
+    """Returns a volume as an xarray.DataTree. The arguments are those of open_volume(). Raises ImportError if xarray is
+    older than 2024.10, which has no trees.
+
+    >>> stormcellar.open_datatree(FILE)["sweep_0/DBZH"].attrs["units"]
+    'dBZ'
+    """
     if not hasattr(xr, "DataTree"):
         raise ImportError(f"xarray {xr.__version__} has no DataTree (2024.10 and later have it): use open_volume()")
     return xr.DataTree.from_dict(open_volume(source, **options))
@@ -83,10 +103,6 @@ def _root_dataset(volume):
             "comment": "; ".join(volume.problems),
         },
     )
-
-
-def fixed_angle(sweep):
-    return sweep.elevation_deg if np.isnan(sweep.fixed_angle_deg) else sweep.fixed_angle_deg
 
 
 def _sweep_dataset(sweep, sort, status, packed):

@@ -4,19 +4,36 @@ Units: degrees, meters, m/s, times as datetime64[ms] in UTC, values in the unit 
 sea level. An unknown number is NaN, an unknown time NaT.
 """
 
+from __future__ import annotations
+
 import ctypes
 import enum
 import os
+import typing
 import weakref
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _library, sources
 from ._library import call, sized
 
+if typing.TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import pyart.core
+
+    Words = typing.Union[str, Iterable[str]]
+    File = typing.Union[str, os.PathLike, bytes, typing.BinaryIO]
+    Source = typing.Union[File, Sequence[File]]
+
 
 class State(enum.IntEnum):
-    """The state of a gate. Only `value` has a value."""
+    """The state of a gate. Only `value` has a value.
+
+    >>> State(2).name
+    'range_folded'
+    """
 
     value = 0
     below_threshold = 1
@@ -43,9 +60,24 @@ class Moment:
     `name`, `unit`, `first_gate_m` (slant range to the center of the first gate), `gate_spacing_m`, `scale`, `offset`
     and `first_valid_code` are as in the file: value = (code - offset) / scale, or the code if the scale is 0. The
     values are in single precision. Source: ICD 2620002.
+
+    >>> moment = stormcellar.Volume(FILE).sweeps[0].moments["REF"]
+    >>> moment
+    <Moment REF, 367 x 460 gates of 1000 m>
+    >>> moment.scale, moment.offset, moment.unit
+    (2.0, 66.0, 'dBZ')
     """
 
-    def __init__(self, handle, sweep, number, radials):
+    name: str
+    unit: str
+    first_gate_m: int
+    gate_spacing_m: int
+    scale: float
+    offset: float
+    first_valid_code: int
+    shape: tuple[int, int]
+
+    def __init__(self, handle: _Handle, sweep: int, number: int, radials: int):
         facts = sized(_library.MomentFacts)
         call("moment_describe", handle.pointer, sweep, number, ctypes.byref(facts))
         self._handle, self._sweep, self._number = handle, sweep, number
@@ -56,13 +88,21 @@ class Moment:
         self._dtype = np.dtype("u1" if facts.code_bytes == 1 else "u2")
 
     @property
-    def ranges_m(self):
-        """Slant ranges to the centers of the gates, shape (gates,)."""
+    def ranges_m(self) -> npt.NDArray[np.float32]:
+        """Slant ranges to the centers of the gates in meters, shape (gates,).
+
+        >>> [int(range_m) for range_m in stormcellar.Volume(FILE).sweeps[1].moments["VEL"].ranges_m[:3]]
+        [-375, -125, 125]
+        """
         return self.first_gate_m + self.gate_spacing_m * np.arange(self.shape[1], dtype="f4")
 
-    def codes(self):
+    def codes(self) -> npt.NDArray[typing.Any]:
         """Returns the codes of the file, shape (radials, gates), uint8 or uint16: a view that cannot be written and
-        keeps the volume alive."""
+        keeps the volume alive.
+
+        >>> int(stormcellar.Volume(FILE).sweeps[0].moments["REF"].codes().max())
+        191
+        """
         pointer = ctypes.c_void_p()
         call("moment_codes", self._handle.pointer, self._sweep, self._number, ctypes.byref(pointer))
         size = self.shape[0] * self.shape[1] * self._dtype.itemsize
@@ -74,19 +114,28 @@ class Moment:
         codes.flags.writeable = False
         return codes
 
-    def values(self):
-        """Returns the values, float32, shape (radials, gates). Gates without a value are NaN; states() says why."""
+    def values(self) -> npt.NDArray[np.float32]:
+        """Returns the values, float32, shape (radials, gates). Gates without a value are NaN; states() says why.
+
+        >>> float(np.nanmax(stormcellar.Volume(FILE).sweeps[0].moments["REF"].values()))
+        62.5
+        """
         values = np.empty(self.shape, "f4")
         call("moment_values", self._handle.pointer, self._sweep, self._number, values.ctypes.data, values.size)
         return values
 
-    def states(self):
-        """Returns the states of the gates (State), uint8, shape (radials, gates)."""
+    def states(self) -> npt.NDArray[np.uint8]:
+        """Returns the states of the gates (State), uint8, shape (radials, gates).
+
+        >>> moment = stormcellar.Volume(FILE).sweeps[1].moments["VEL"]
+        >>> [State(int(state)).name for state in np.unique(moment.states())]
+        ['value', 'below_threshold', 'range_folded']
+        """
         states = np.empty(self.shape, "u1")
         call("moment_states", self._handle.pointer, self._sweep, self._number, states.ctypes.data, states.size)
         return states
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Moment {self.name}, {self.shape[0]} x {self.shape[1]} gates of {self.gate_spacing_m} m>"
 
 
@@ -96,9 +145,23 @@ class Sweep:
     time, azimuth_deg, elevation_deg, nyquist_mps, unambiguous_range_m, status, azimuth_number) and `moments`, by name.
 
     If radials of a sweep differ in their gates, `moments` has the gates of the first kind, and `kinds` has all kinds.
+
+    >>> sweep = stormcellar.Volume(FILE).sweeps[1]
+    >>> sweep
+    <Sweep 1, 0.5 degrees, 367 radials: VEL SW>
+    >>> print(sweep.radials["time"][0], round(float(sweep.radials["nyquist_mps"][0]), 1))
+    1999-05-03T23:56:41.262 26.1
     """
 
-    def __init__(self, handle, number):
+    number: int
+    elevation_deg: float
+    fixed_angle_deg: float
+    elevation_number: int
+    radials: npt.NDArray[typing.Any]
+    moments: dict[str, Moment]
+    kinds: list[Moment]
+
+    def __init__(self, handle: _Handle, number: int):
         facts = sized(_library.SweepFacts)
         call("sweep_describe", handle.pointer, number, ctypes.byref(facts))
         self.number = number
@@ -111,7 +174,7 @@ class Sweep:
         for moment in self.kinds:
             self.moments.setdefault(moment.name, moment)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Sweep {self.number}, {self.elevation_deg:.1f} degrees, {len(self.radials)} radials: " \
                f"{' '.join(self.moments)}>"
 
@@ -127,11 +190,33 @@ class Volume:
 
     `station`, `latitude_deg`, `longitude_deg`, `altitude_m` (of the antenna), `start` (datetime64[ms]), `vcp` (None if
     unknown), `complete`, `problems` (a list of lines), `volumes` (how many the file has) and `sweeps` describe it.
+
+    >>> volume = stormcellar.Volume(FILE)
+    >>> volume
+    <Volume KTLX 1999-05-03T23:56:21.000, 16 sweeps>
+    >>> volume.vcp, volume.complete, volume.problems
+    (11, True, ['the radar reports: on auxiliary power'])
+    >>> stormcellar.Volume(b"no radar data")
+    Traceback (most recent call last):
+    stormcellar._library.Error: ...
     """
 
-    def __init__(self, source, *, moments=None, threads=1, volume=0, station=None, time=None, bucket=sources.BUCKET):
+    station: str
+    latitude_deg: float
+    longitude_deg: float
+    altitude_m: float
+    start: np.datetime64
+    vcp: int | None
+    complete: bool
+    volumes: int
+    sweeps: list[Sweep]
+    problems: list[str]
+
+    def __init__(self, source: Source, *, moments: Words | None = None, threads: int = 1, volume: int = 0,
+                 station: str | None = None, time: typing.Any = None, bucket: str = sources.BUCKET):
         if time is not None:
-            source, station = sources.fetched(source, time, bucket), station or source.upper()
+            station = station or str(source).upper()
+            source = sources.fetched(str(source), time, bucket)
         elif isinstance(source, (list, tuple)):
             source = sources.joined(source)
         options = sized(_library.ReadOptions, threads=threads, volume=volume, moments=_words(moments),
@@ -163,7 +248,8 @@ class Volume:
         call("volume_problem", self._handle.pointer, number, text, len(text))
         return text.value.decode(errors="replace")
 
-    def derive(self, moments, *, dealias=None, storm_motion=None, quality=0.0):
+    def derive(self, moments: Words, *, dealias: str | None = None, storm_motion: str | None = None,
+               quality: float = 0.0) -> Volume:
         """Returns a copy of the volume with derived moments: "VELD" (dealiased velocity), "SRV" (storm-relative
         velocity), "AZSH" (azimuthal shear), "DIVG" (divergence), "POW" (probability of weather), "KDP" (specific
         differential phase), "RATE" (rain rate), "HCA" (classes of hydrometeors).
@@ -171,6 +257,9 @@ class Volume:
         `dealias`: auto, off, profile, region or anchored. `storm_motion`, for SRV: auto, right, left, mean, or
         "240/15", from 240 degrees at 15 m/s. `quality`: leaves out gates whose probability of weather is less.
         Accuracy: docs/velocity.md, docs/quality.md, docs/storms.md. Raises Error if the volume lacks what is needed.
+
+        >>> stormcellar.Volume(FILE).derive("VELD").sweeps[1]
+        <Sweep 1, 0.5 degrees, 367 radials: VEL SW VELD>
         """
         options = sized(_library.DeriveOptions, dealias=dealias.encode() if dealias else None,
                         storm_motion=storm_motion.encode() if storm_motion else None, quality=quality)
@@ -180,14 +269,28 @@ class Volume:
         derived._take(pointer)
         return derived
 
-    def to_pyart(self):
-        """Returns the volume as a pyart.core.Radar (pyart_radar.to_pyart)."""
+    def to_pyart(self) -> pyart.core.Radar:
+        """Returns the volume as a pyart.core.Radar (pyart_radar.to_pyart). Needs Py-ART.
+
+        >>> radar = stormcellar.Volume(FILE).to_pyart()
+        >>> radar.nsweeps, sorted(radar.fields)
+        (16, ['reflectivity', 'spectrum_width', 'velocity'])
+        """
         from .pyart_radar import to_pyart
 
         return to_pyart(self)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Volume {self.station} {self.start}, {len(self.sweeps)} sweeps>"
+
+
+def fixed_angle(sweep: Sweep) -> float:
+    """Returns the angle of the pattern in degrees, or the mean of the radials if the file has none.
+
+    >>> round(fixed_angle(stormcellar.Volume(FILE).sweeps[0]), 1)
+    0.5
+    """
+    return sweep.elevation_deg if np.isnan(sweep.fixed_angle_deg) else sweep.fixed_angle_deg
 
 
 def _words(names):
