@@ -13,7 +13,6 @@
 #include "level2/decode/problem_notes.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/level2/decode.h"
-#include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::capi {
 namespace {
@@ -97,13 +96,9 @@ Status derive(const stormcellar_volume* volume, const char* names,
     if (!(all->quality >= 0 && all->quality <= 1))
         return fail(ErrorCode::bad_argument, "quality must be from 0 to 1");
     deriving.quality = all->quality;
-    auto handle = std::make_unique<stormcellar_volume>(*volume);
-    if (retrieve::must_derive(*moments, deriving)) {
-        auto made = retrieve::add_derived_moments(handle->source.volume, *moments, deriving);
-        if (!made) return pass_on(made);
-        std::ranges::move(made->notes, std::back_inserter(handle->source.notes));
-    }
-    *derived = handle.release();
+    auto made = derived_volume(*volume, *moments, deriving);
+    if (!made) return pass_on(made);
+    *derived = *made ? made->release() : new stormcellar_volume(*volume);
     return {};
 }
 
@@ -141,6 +136,17 @@ Result<std::vector<level2::Moment>> moments_named(const char* names) {
         moments.push_back(*moment);
     }
     return moments;
+}
+
+Result<std::unique_ptr<stormcellar_volume>> derived_volume(
+    const stormcellar_volume& volume, const std::vector<level2::Moment>& moments,
+    const retrieve::DerivedOptions& options) {
+    if (!retrieve::must_derive(moments, options)) return std::unique_ptr<stormcellar_volume>{};
+    auto derived = std::make_unique<stormcellar_volume>(volume);
+    auto made = retrieve::add_derived_moments(derived->source.volume, moments, options);
+    if (!made) return pass_on(made);
+    std::ranges::move(made->notes, std::back_inserter(derived->source.notes));
+    return derived;
 }
 
 }  // namespace stormcellar::capi

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/derived_moments.h"
 
 struct stormcellar_volume {
     stormcellar::grid::SourceVolume source;  // without the site, which may be unknown
@@ -30,6 +32,12 @@ inline constexpr std::int64_t unknown_time = INT64_MIN;
 
 // Reads the names of moments between blanks. Errors: bad_argument for an unknown name.
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_named(const char* names);
+
+// Returns a copy of the volume with the derived moments among `moments`, or null if there are none
+// and the options change nothing. Errors: those of add_derived_moments().
+[[nodiscard]] Result<std::unique_ptr<stormcellar_volume>> derived_volume(
+    const stormcellar_volume& volume, const std::vector<level2::Moment>& moments,
+    const retrieve::DerivedOptions& options);
 
 // Errors: bad_argument for a null pointer and for numbers that the volume does not have.
 [[nodiscard]] Result<const level2::Sweep*> sweep_of(const stormcellar_volume* volume,

@@ -245,10 +245,11 @@ STORMCELLAR_API stormcellar_code stormcellar_mosaic_make(
     stormcellar_error* error);
 // Merges grids of different radars, which must have the same moment and the same cells, as they
 // are: echo does not move to a common time. Values are rounded to the steps of the cache (0.5 dBZ).
-STORMCELLAR_API stormcellar_code
-stormcellar_grid_merge(const stormcellar_grid* const* grids, size_t count,
-                       const stormcellar_mosaic_options* options, stormcellar_grid** merged,
-                       stormcellar_error* error);
+STORMCELLAR_API stormcellar_code stormcellar_grid_merge(const stormcellar_grid* const* grids,
+                                                        size_t count,
+                                                        const stormcellar_mosaic_options* options,
+                                                        stormcellar_grid** merged,
+                                                        stormcellar_error* error);
 // Frees a grid; null is allowed.
 STORMCELLAR_API void stormcellar_grid_free(stormcellar_grid* grid);
 
@@ -290,6 +291,55 @@ STORMCELLAR_API stormcellar_code stormcellar_grid_values(const stormcellar_grid*
 STORMCELLAR_API stormcellar_code stormcellar_grid_states(const stormcellar_grid* grid,
                                                          const uint8_t** states,
                                                          stormcellar_error* error);
+
+// A picture as pixels, rows of red, green, blue and alpha (sRGB, alpha not premultiplied) from the
+// top, or as the bytes of a PNG file.
+typedef struct stormcellar_picture stormcellar_picture;
+
+typedef enum stormcellar_picture_format {
+    STORMCELLAR_RGBA = 0,
+    STORMCELLAR_PNG = 1
+} stormcellar_picture_format;
+
+typedef struct stormcellar_draw_options {
+    size_t size;
+    const char* product;    // volume, ppi, composite, ...; null: volume
+    const char* moment;     // null: the grid's or the product's, or else REF
+    int32_t width, height;  // pixels; 0: 796, 532
+    // Further options of `stormcellar frame`, such as "theme=light" and "tilt=40".
+    const char* const* settings;
+    int32_t setting_count;
+    int32_t format;   // a stormcellar_picture_format
+    int32_t threads;  // 0: one
+} stormcellar_draw_options;
+
+// Draw a volume, or a grid, as `stormcellar frame` does with the same options: a PNG has the same
+// bytes. Products over several volumes and marks of storm cells are not drawn. Null options draw
+// reflectivity in three dimensions.
+STORMCELLAR_API stormcellar_code stormcellar_volume_draw(const stormcellar_volume* volume,
+                                                         const stormcellar_draw_options* options,
+                                                         stormcellar_picture** picture,
+                                                         stormcellar_error* error);
+STORMCELLAR_API stormcellar_code stormcellar_grid_draw(const stormcellar_grid* grid,
+                                                       const stormcellar_draw_options* options,
+                                                       stormcellar_picture** picture,
+                                                       stormcellar_error* error);
+// Frees a picture; null is allowed.
+STORMCELLAR_API void stormcellar_picture_free(stormcellar_picture* picture);
+
+typedef struct stormcellar_picture_facts {
+    size_t size;
+    int32_t width, height;
+    size_t bytes;
+} stormcellar_picture_facts;
+
+STORMCELLAR_API stormcellar_code stormcellar_picture_describe(const stormcellar_picture* picture,
+                                                              stormcellar_picture_facts* facts,
+                                                              stormcellar_error* error);
+// Points to the pixels or to the bytes of the file. They live as long as the picture.
+STORMCELLAR_API stormcellar_code stormcellar_picture_bytes(const stormcellar_picture* picture,
+                                                           const uint8_t** bytes,
+                                                           stormcellar_error* error);
 
 #ifdef __cplusplus
 }

@@ -15,13 +15,14 @@ import typing
 
 from ._library import Error, version
 from .grids import CellState, Grid, grid, mosaic
+from .pictures import Picture, draw
 from .volume import Moment, State, Sweep, Volume
 
 if typing.TYPE_CHECKING:
     from .trees import open_datatree, open_volume
 
-__all__ = ["CellState", "Error", "Grid", "Moment", "State", "Sweep", "Volume", "grid", "mosaic", "open_datatree",
-           "open_volume", "version"]
+__all__ = ["CellState", "Error", "Grid", "Moment", "Picture", "State", "Sweep", "Volume", "draw", "grid", "mosaic",
+           "open_datatree", "open_volume", "version"]
 
 
 def __getattr__(name: str) -> typing.Any:

@@ -71,6 +71,16 @@ class MosaicOptions(Structure):
     _fields_ = [("size", c_size_t), ("overlap", c_char_p), ("length_m", c_double)]
 
 
+class DrawOptions(Structure):
+    _fields_ = [("size", c_size_t), ("product", c_char_p), ("moment", c_char_p), ("width", c_int32),
+                ("height", c_int32), ("settings", POINTER(c_char_p)), ("setting_count", c_int32), ("format", c_int32),
+                ("threads", c_int32)]
+
+
+class PictureFacts(Structure):
+    _fields_ = [("size", c_size_t), ("width", c_int32), ("height", c_int32), ("bytes", c_size_t)]
+
+
 class GridFacts(Structure):
     _fields_ = [("size", c_size_t), ("moment", c_char * 8), ("unit", c_char * 16), ("columns", c_int32),
                 ("rows", c_int32), ("levels", c_int32), ("mean_of_cell", c_int32), ("spacing_m", c_double),
@@ -104,12 +114,16 @@ _FUNCTIONS = {
     "moment_describe": [c_void_p, c_int32, c_int32, POINTER(MomentFacts)],
     "moment_codes": [c_void_p, c_int32, c_int32, POINTER(c_void_p)],
     "moment_values": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
+    "volume_draw": [c_void_p, POINTER(DrawOptions), POINTER(c_void_p)],
+    "picture_describe": [c_void_p, POINTER(PictureFacts)],
+    "picture_bytes": [c_void_p, POINTER(c_void_p)],
     "mosaic_make": [c_void_p, c_size_t, POINTER(GridOptions), POINTER(MosaicOptions), POINTER(c_void_p)],
     "moment_states": [c_void_p, c_int32, c_int32, c_void_p, c_size_t],
     "grid_make": [c_void_p, POINTER(GridOptions), POINTER(c_void_p)],
     "grid_describe": [c_void_p, POINTER(GridFacts)],
     "grid_levels": [c_void_p, c_void_p],
     "grid_values": [c_void_p, c_void_p],
+    "grid_draw": [c_void_p, POINTER(DrawOptions), POINTER(c_void_p)],
     "grid_merge": [c_void_p, c_size_t, POINTER(MosaicOptions), POINTER(c_void_p)],
     "grid_states": [c_void_p, c_void_p],
 }
@@ -117,7 +131,8 @@ for _name, _arguments in _FUNCTIONS.items():
     _function = getattr(_library, "stormcellar_" + _name)
     _function.argtypes = [*_arguments, POINTER(ErrorStruct)]
     _function.restype = c_int
-for _function in (_library.stormcellar_volume_free, _library.stormcellar_grid_free):
+for _name in ("volume", "grid", "picture"):
+    _function = getattr(_library, f"stormcellar_{_name}_free")
     _function.argtypes = [c_void_p]
     _function.restype = None
 _library.stormcellar_version.restype = c_char_p
@@ -133,6 +148,10 @@ def call(name, *arguments):
 
 def free_volume(handle):
     _library.stormcellar_volume_free(handle)
+
+
+def free_picture(handle):
+    _library.stormcellar_picture_free(handle)
 
 
 def free_grid(handle):
