@@ -77,4 +77,4 @@ def _field(volume, name, ranges, ends):
         gates = np.floor((ranges - moment.first_gate_m) / moment.gate_spacing_m + 0.5).astype(int)
         known = (gates >= 0) & (gates < moment.shape[1])
         data[end - len(sweep.radials):end, known] = moment.values()[:, gates[known]]
-    return np.ma.masked_invalid(data)
+    return np.ma.array(data, mask=np.isnan(data), copy=False)
