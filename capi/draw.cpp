@@ -89,10 +89,12 @@ Status draw(PictureWish wish, const std::string& name, const grid::BrickView& vi
     return {};
 }
 
-Status draw_cells(PictureWish wish, const grid::Grid& cells, stormcellar_picture** picture) {
+// An empty name stands for those of the stations.
+Status draw_cells(PictureWish wish, std::string name, const grid::Grid& cells,
+                  stormcellar_picture** picture) {
     const auto bricks = grid::BrickGrid::from(cells, grid::default_quantization(cells.moment),
                                               wish.options.threads);
-    const std::string name = fmt::format("{}", fmt::join(cells.provenance.stations, "+"));
+    if (name.empty()) name = fmt::format("{}", fmt::join(cells.provenance.stations, "+"));
     return draw(std::move(wish), name, bricks.view(), cache::describe(cells), picture);
 }
 
@@ -142,7 +144,7 @@ Status draw_volume(const stormcellar_volume& volume, PictureWish wish,
                         grid::effects_of(gridder.moment), gridder);
     if (!made) return pass_on(made);
     compare_melting_layer(wish.scene, shown.source, made->provenance.notes);
-    return draw_cells(std::move(wish), *made, picture);
+    return draw_cells(std::move(wish), "", *made, picture);
 }
 
 Status begin(const void* object, const char* name, stormcellar_picture** picture) {
@@ -177,7 +179,7 @@ stormcellar_code stormcellar_grid_draw(const stormcellar_grid* grid,
         if (!wish) return pass_on(wish);
         const Status fits = render::check_stored_derivation(wish->options, wish->scene.product);
         if (!fits) return fits;
-        return capi::draw_cells(std::move(*wish), grid->grid, picture);
+        return capi::draw_cells(std::move(*wish), grid->domain, grid->grid, picture);
     });
 }
 

@@ -1,5 +1,6 @@
 #include "stormcellar/grid/grid.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -52,6 +53,12 @@ Status describe_grid(const stormcellar_grid* grid, stormcellar_grid_facts* to) {
     facts.time_ms = milliseconds_of(made.time);
     facts.start_ms = milliseconds_of(made.start_time);
     facts.end_ms = milliseconds_of(made.end_time);
+    copy_text(grid::projection_name(made.spec.projection), facts.projection,
+              sizeof facts.projection);
+    facts.spacing_deg = made.spec.spacing_deg;
+    std::ranges::copy(made.spec.parallels_deg, facts.parallels_deg);
+    facts.offset_x_cells = made.spec.offset_x_cells;
+    facts.offset_y_cells = made.spec.offset_y_cells;
     return give(facts, to);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "capi/volume_handle.h"
@@ -17,6 +18,7 @@
 struct stormcellar_grid {
     stormcellar::grid::Grid grid;
     bool is_mean_of_cells = false;
+    std::string domain = {};  // of the cache; empty: the grid is not from a cache
 };
 
 namespace stormcellar::capi {

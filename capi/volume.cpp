@@ -111,8 +111,7 @@ Status describe(const stormcellar_volume* volume, stormcellar_volume_facts* to) 
     facts.latitude_deg = antenna ? antenna->latitude_deg : unknown;
     facts.longitude_deg = antenna ? antenna->longitude_deg : unknown;
     facts.altitude_m = antenna ? antenna->altitude_m : unknown;
-    const auto start = volume->source.volume.start_time();
-    facts.start_ms = start ? milliseconds_of(*start) : unknown_time;
+    facts.start_ms = milliseconds_of(volume->source.volume.start_time());
     facts.vcp = volume->source.volume.vcp.value_or(-1);
     facts.sweeps = static_cast<std::int32_t>(volume->source.volume.sweeps.size());
     facts.complete = volume->source.partial ? 0 : 1;

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "capi/query.h"
 #include "grid/place/source_volume.h"
 #include "stormcellar.h"
 #include "stormcellar/base/result.h"
-#include "stormcellar/base/utc_time.h"
 #include "stormcellar/level2/volume.h"
 #include "stormcellar/retrieve/derived_moments.h"
 
@@ -23,12 +23,6 @@ struct stormcellar_volume {
 };
 
 namespace stormcellar::capi {
-
-inline constexpr std::int64_t unknown_time = INT64_MIN;
-
-[[nodiscard]] inline std::int64_t milliseconds_of(UtcTime time) {
-    return time.time_since_epoch().count();
-}
 
 // Reads the names of moments between blanks. Errors: bad_argument for an unknown name.
 [[nodiscard]] Result<std::vector<level2::Moment>> moments_named(const char* names);

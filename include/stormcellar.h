@@ -263,6 +263,11 @@ typedef struct stormcellar_grid_facts {
     double center_latitude_deg, center_longitude_deg;
     int64_t time_ms;           // start of the volume
     int64_t start_ms, end_ms;  // of the radials that were used
+    char projection[24];       // azimuthal_equidistant, lambert_conformal or latitude_longitude
+    double spacing_deg;        // of a grid in degrees, whose spacing_m is 0
+    double parallels_deg[2];   // of lambert_conformal
+    // The middle of the grid is this many cells to the east and to the north of the center.
+    double offset_x_cells, offset_y_cells;
 } stormcellar_grid_facts;
 
 STORMCELLAR_API stormcellar_code stormcellar_grid_describe(const stormcellar_grid* grid,
@@ -340,6 +345,87 @@ STORMCELLAR_API stormcellar_code stormcellar_picture_describe(const stormcellar_
 STORMCELLAR_API stormcellar_code stormcellar_picture_bytes(const stormcellar_picture* picture,
                                                            const uint8_t** bytes,
                                                            stormcellar_error* error);
+
+// Members that are 0 or null select everything.
+typedef struct stormcellar_query {
+    size_t size;
+    const char* name;        // a station of a catalog, a domain of a cache
+    const char* moment;      // of grids in a cache: names between blanks, "REF VEL"
+    int64_t from_ms, to_ms;  // start of a volume, or time of a grid; both included
+} stormcellar_query;
+
+// A catalog of raw files (docs/catalog.md), opened to read, while a service may write to it.
+typedef struct stormcellar_catalog stormcellar_catalog;
+typedef struct stormcellar_file_list stormcellar_file_list;
+
+STORMCELLAR_API stormcellar_code stormcellar_catalog_open(const char* directory,
+                                                          stormcellar_catalog** catalog,
+                                                          stormcellar_error* error);
+// Frees a catalog; null is allowed.
+STORMCELLAR_API void stormcellar_catalog_free(stormcellar_catalog* catalog);
+// Lists volumes by station, then by start. Without a station, leaves out stations whose databases
+// cannot be read.
+STORMCELLAR_API stormcellar_code stormcellar_catalog_list(const stormcellar_catalog* catalog,
+                                                          const stormcellar_query* query,
+                                                          stormcellar_file_list** list,
+                                                          size_t* count, stormcellar_error* error);
+// Frees a list; null is allowed.
+STORMCELLAR_API void stormcellar_file_list_free(stormcellar_file_list* list);
+
+// A volume in a file. The texts live as long as the list.
+typedef struct stormcellar_file_facts {
+    size_t size;
+    const char* path;    // for stormcellar_volume_open(), unless the state is gone
+    const char* reason;  // why the file is partial, or a remark
+    char station[8];
+    char state[16];  // of the file: seen (not decoded yet), complete, partial, rejected or gone
+    int64_t start_ms, end_ms;
+    uint64_t bytes;  // of the file
+    int32_t volume;  // number in the file, from 1
+    int32_t vcp;     // -1: unknown
+    int32_t sweeps, radials;
+    int32_t complete;  // 1 if nothing of the volume is missing
+} stormcellar_file_facts;
+
+STORMCELLAR_API stormcellar_code stormcellar_file_list_describe(const stormcellar_file_list* list,
+                                                                size_t index,
+                                                                stormcellar_file_facts* facts,
+                                                                stormcellar_error* error);
+
+// A directory of grid files (docs/cache-format.md), opened to read.
+typedef struct stormcellar_cache stormcellar_cache;
+typedef struct stormcellar_grid_list stormcellar_grid_list;
+
+STORMCELLAR_API stormcellar_code stormcellar_cache_open(const char* directory,
+                                                        stormcellar_cache** cache,
+                                                        stormcellar_error* error);
+// Frees a cache; null is allowed.
+STORMCELLAR_API void stormcellar_cache_free(stormcellar_cache* cache);
+// Lists grids by domain, moment and time. Opens no grid.
+STORMCELLAR_API stormcellar_code stormcellar_cache_list(const stormcellar_cache* cache,
+                                                        const stormcellar_query* query,
+                                                        stormcellar_grid_list** list, size_t* count,
+                                                        stormcellar_error* error);
+// Frees a list; null is allowed.
+STORMCELLAR_API void stormcellar_grid_list_free(stormcellar_grid_list* list);
+
+// A grid file. The texts live as long as the list.
+typedef struct stormcellar_grid_file_facts {
+    size_t size;
+    const char* path;
+    const char* domain;
+    char moment[8];
+    int64_t time_ms;
+    uint64_t bytes;  // on disk
+} stormcellar_grid_file_facts;
+
+STORMCELLAR_API stormcellar_code stormcellar_grid_list_describe(const stormcellar_grid_list* list,
+                                                                size_t index,
+                                                                stormcellar_grid_file_facts* facts,
+                                                                stormcellar_error* error);
+// Reads a grid file, and checks its checksums. No other program may cut the file meanwhile.
+STORMCELLAR_API stormcellar_code stormcellar_grid_read(const char* path, stormcellar_grid** grid,
+                                                       stormcellar_error* error);
 
 #ifdef __cplusplus
 }

@@ -14,6 +14,8 @@ library libstormcellar.so.0, which releases the interpreter's lock.
 import typing
 
 from ._library import Error, version
+from .caches import Cache
+from .catalogs import Catalog, CatalogEntry
 from .grids import CellState, Grid, grid, mosaic
 from .pictures import Picture, draw
 from .volume import Moment, State, Sweep, Volume
@@ -21,8 +23,8 @@ from .volume import Moment, State, Sweep, Volume
 if typing.TYPE_CHECKING:
     from .trees import open_datatree, open_volume
 
-__all__ = ["CellState", "Error", "Grid", "Moment", "Picture", "State", "Sweep", "Volume", "draw", "grid", "mosaic",
-           "open_datatree", "open_volume", "version"]
+__all__ = ["Cache", "Catalog", "CatalogEntry", "CellState", "Error", "Grid", "Moment", "Picture", "State", "Sweep",
+           "Volume", "draw", "grid", "mosaic", "open_datatree", "open_volume", "version"]
 
 
 def __getattr__(name: str) -> typing.Any:

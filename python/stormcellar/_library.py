@@ -5,7 +5,8 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
-from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, c_void_p
+import weakref
+from ctypes import POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64, c_size_t, c_uint64, c_void_p
 
 # The names of stormcellar_code, in the order of the header.
 CODES = ("ok", "bad_argument", "not_found", "empty", "truncated", "corrupt", "unsupported", "not_level2", "not_a_file",
@@ -85,7 +86,24 @@ class GridFacts(Structure):
     _fields_ = [("size", c_size_t), ("moment", c_char * 8), ("unit", c_char * 16), ("columns", c_int32),
                 ("rows", c_int32), ("levels", c_int32), ("mean_of_cell", c_int32), ("spacing_m", c_double),
                 ("center_latitude_deg", c_double), ("center_longitude_deg", c_double), ("time_ms", c_int64),
-                ("start_ms", c_int64), ("end_ms", c_int64)]
+                ("start_ms", c_int64), ("end_ms", c_int64), ("projection", c_char * 24), ("spacing_deg", c_double),
+                ("parallels_deg", c_double * 2), ("offset_x_cells", c_double), ("offset_y_cells", c_double)]
+
+
+class Query(Structure):
+    _fields_ = [("size", c_size_t), ("name", c_char_p), ("moment", c_char_p), ("from_ms", c_int64), ("to_ms", c_int64)]
+
+
+class FileFacts(Structure):
+    _fields_ = [("size", c_size_t), ("path", c_char_p), ("reason", c_char_p), ("station", c_char * 8),
+                ("state", c_char * 16), ("start_ms", c_int64), ("end_ms", c_int64), ("bytes", c_uint64),
+                ("volume", c_int32), ("vcp", c_int32), ("sweeps", c_int32), ("radials", c_int32),
+                ("complete", c_int32)]
+
+
+class GridFileFacts(Structure):
+    _fields_ = [("size", c_size_t), ("path", c_char_p), ("domain", c_char_p), ("moment", c_char * 8),
+                ("time_ms", c_int64), ("bytes", c_uint64)]
 
 
 def sized(kind, **values):
@@ -126,12 +144,19 @@ _FUNCTIONS = {
     "grid_draw": [c_void_p, POINTER(DrawOptions), POINTER(c_void_p)],
     "grid_merge": [c_void_p, c_size_t, POINTER(MosaicOptions), POINTER(c_void_p)],
     "grid_states": [c_void_p, c_void_p],
+    "grid_read": [c_char_p, POINTER(c_void_p)],
+    "catalog_open": [c_char_p, POINTER(c_void_p)],
+    "catalog_list": [c_void_p, POINTER(Query), POINTER(c_void_p), POINTER(c_size_t)],
+    "file_list_describe": [c_void_p, c_size_t, POINTER(FileFacts)],
+    "cache_open": [c_char_p, POINTER(c_void_p)],
+    "cache_list": [c_void_p, POINTER(Query), POINTER(c_void_p), POINTER(c_size_t)],
+    "grid_list_describe": [c_void_p, c_size_t, POINTER(GridFileFacts)],
 }
 for _name, _arguments in _FUNCTIONS.items():
     _function = getattr(_library, "stormcellar_" + _name)
     _function.argtypes = [*_arguments, POINTER(ErrorStruct)]
     _function.restype = c_int
-for _name in ("volume", "grid", "picture"):
+for _name in ("volume", "grid", "picture", "catalog", "file_list", "cache", "grid_list"):
     _function = getattr(_library, f"stormcellar_{_name}_free")
     _function.argtypes = [c_void_p]
     _function.restype = None
@@ -146,16 +171,12 @@ def call(name, *arguments):
         raise Error(error.message.decode(errors="replace"), CODES[code] if code < len(CODES) else "internal")
 
 
-def free_volume(handle):
-    _library.stormcellar_volume_free(handle)
+class Handle:
+    """Owns an object of the library, a "volume" for example, and frees it when nothing refers to it."""
 
-
-def free_picture(handle):
-    _library.stormcellar_picture_free(handle)
-
-
-def free_grid(handle):
-    _library.stormcellar_grid_free(handle)
+    def __init__(self, kind, pointer):
+        self.pointer = pointer
+        weakref.finalize(self, getattr(_library, f"stormcellar_{kind}_free"), pointer)
 
 
 def version() -> str:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import ctypes
 import enum
 import typing
-import weakref
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._library import call, sized
+from ._library import Handle, call, sized
 from .volume import Volume
 
 if typing.TYPE_CHECKING:
@@ -36,18 +35,16 @@ class CellState(enum.IntEnum):
     ambiguous = 5
 
 
-class _Handle:
-    def __init__(self, pointer):
-        self.pointer = pointer
-        weakref.finalize(self, _library.free_grid, pointer)
-
-
 class Grid:
-    """A grid of one moment, on a plane about its center (azimuthal equidistant on WGS84).
+    """A grid of one moment, about its center on WGS84.
 
     `moment`, `unit`, `spacing_m`, `center` (latitude and longitude in degrees), `time` (start of the volume), `start`
     and `end` (of the radials used) describe it. `x_m`, `y_m` and `levels_m` are the places of the cells: meters to the
     east and to the north of the center, and above mean sea level.
+
+    `projection` is azimuthal_equidistant; grids of a cache may also have lambert_conformal (with `parallels_deg`) or
+    latitude_longitude, which has `spacing_deg`, `longitudes_deg` and `latitudes_deg` instead of places in meters.
+    Places that a grid does not have are NaN.
 
     >>> grid = stormcellar.grid(FILE, columns=100, rows=80, spacing_m=2000, levels_m=[1000, 2500])
     >>> grid
@@ -59,26 +56,38 @@ class Grid:
     moment: str
     unit: str
     shape: tuple[int, int, int]
+    projection: str
     spacing_m: float
+    spacing_deg: float
+    parallels_deg: tuple[float, float]
     center: tuple[float, float]
     time: np.datetime64
     start: np.datetime64
     end: np.datetime64
     x_m: npt.NDArray[np.float64]
     y_m: npt.NDArray[np.float64]
+    longitudes_deg: npt.NDArray[np.float64]
+    latitudes_deg: npt.NDArray[np.float64]
     levels_m: npt.NDArray[np.float64]
 
     def __init__(self, pointer: ctypes.c_void_p):
-        self._handle = _Handle(pointer)
+        self._handle = Handle("grid", pointer)
         facts = sized(_library.GridFacts)
         call("grid_describe", pointer, ctypes.byref(facts))
         self.moment, self.unit = facts.moment.decode(), facts.unit.decode()
         self.shape = (facts.levels, facts.rows, facts.columns)
-        self.spacing_m = facts.spacing_m
+        self.projection = facts.projection.decode()
+        self.spacing_m, self.spacing_deg = facts.spacing_m, facts.spacing_deg
+        self.parallels_deg = tuple(facts.parallels_deg)
         self.center = (facts.center_latitude_deg, facts.center_longitude_deg)
         self.time, self.start, self.end = (np.datetime64(time, "ms")
                                            for time in (facts.time_ms, facts.start_ms, facts.end_ms))
-        self.x_m, self.y_m = (self.spacing_m * (np.arange(count) - (count - 1) / 2) for count in self.shape[:0:-1])
+        east, north = (np.arange(count) - (count - 1) / 2 + offset for count, offset in
+                       ((facts.columns, facts.offset_x_cells), (facts.rows, facts.offset_y_cells)))
+        spacing_m, spacing_deg = self.spacing_m or np.nan, self.spacing_deg or np.nan
+        self.x_m, self.y_m = spacing_m * east, spacing_m * north
+        self.longitudes_deg = self.center[1] + spacing_deg * east
+        self.latitudes_deg = self.center[0] + spacing_deg * north
         self.levels_m = self._array("grid_levels", ctypes.c_double, (facts.levels,))
         columns_first = (facts.rows, facts.columns, facts.levels)
         self._values = self._array("grid_values", ctypes.c_float, columns_first)
@@ -113,7 +122,7 @@ class Grid:
 
     def to_dataset(self) -> xarray.Dataset:
         """Returns the grid as an xarray.Dataset with the variables MOMENT and MOMENT_status, and dimensions z, y, x
-        in meters. Needs xarray.
+        in meters (lat and lon in degrees for a latitude_longitude grid). Needs xarray.
 
         >>> dataset = stormcellar.grid(FILE, columns=100, rows=80, levels_m=[1000]).to_dataset()
         >>> dict(dataset["REF"].sizes)
@@ -121,23 +130,38 @@ class Grid:
         """
         import xarray as xr
 
-        dimensions = ("z", "y", "x")
-        states = {"long_name": f"State of the cells of {self.moment}",
-                  "flag_values": np.array([int(state) for state in CellState], "u1"),
-                  "flag_meanings": " ".join(state.name for state in CellState)}
-        plane = {"units": "m", "standard_name": "projection_x_coordinate"}
-        return xr.Dataset(
-            {self.moment: (dimensions, self.values(), {"units": self.unit, "grid_mapping": "crs"}),
-             f"{self.moment}_status": (dimensions, self.states(), states),
-             "crs": ((), 0, {"grid_mapping_name": "azimuthal_equidistant",
-                             "latitude_of_projection_origin": self.center[0],
-                             "longitude_of_projection_origin": self.center[1]})},
-            coords={"z": ("z", self.levels_m, {"units": "m", "standard_name": "altitude", "positive": "up"}),
-                    "y": ("y", self.y_m, plane | {"standard_name": "projection_y_coordinate"}),
-                    "x": ("x", self.x_m, plane), "time": ((), self.time.astype("datetime64[ns]"))})
+        return xr.Dataset(self._variables(self.values(), self.states()),
+                          coords={**self._coordinates(), "time": ((), self.time.astype("datetime64[ns]"))})
+
+    def _variables(self, values, states, *before):
+        """Returns the variables of a dataset with these cells, whose dimensions begin with `before`."""
+        in_degrees = self.projection == "latitude_longitude"
+        dimensions = (*before, "z", "lat", "lon") if in_degrees else (*before, "z", "y", "x")
+        flags = {"long_name": f"State of the cells of {self.moment}",
+                 "flag_values": np.array([int(state) for state in CellState], "u1"),
+                 "flag_meanings": " ".join(state.name for state in CellState)}
+        origin = {"latitude_of_projection_origin": self.center[0]}
+        mappings = {"latitude_longitude": {},
+                    "lambert_conformal": origin | {"longitude_of_central_meridian": self.center[1],
+                                                   "standard_parallel": self.parallels_deg},
+                    "azimuthal_equidistant": origin | {"longitude_of_projection_origin": self.center[1]}}
+        name = self.projection + ("_conic" if self.projection == "lambert_conformal" else "")
+        return {self.moment: (dimensions, values, {"units": self.unit, "grid_mapping": "crs"}),
+                f"{self.moment}_status": (dimensions, states, flags),
+                "crs": ((), 0, {"grid_mapping_name": name} | mappings[self.projection])}
+
+    def _coordinates(self):
+        height = {"z": ("z", self.levels_m, {"units": "m", "standard_name": "altitude", "positive": "up"})}
+        if self.projection == "latitude_longitude":
+            return height | {
+                "lat": ("lat", self.latitudes_deg, {"units": "degrees_north", "standard_name": "latitude"}),
+                "lon": ("lon", self.longitudes_deg, {"units": "degrees_east", "standard_name": "longitude"})}
+        return height | {"y": ("y", self.y_m, {"units": "m", "standard_name": "projection_y_coordinate"}),
+                         "x": ("x", self.x_m, {"units": "m", "standard_name": "projection_x_coordinate"})}
 
     def __repr__(self) -> str:
-        return f"<Grid {self.moment}, {self.shape[2]} x {self.shape[1]} x {self.shape[0]} cells of {self.spacing_m:g} m>"
+        return f"<Grid {self.moment}, {self.shape[2]} x {self.shape[1]} x {self.shape[0]} cells of " \
+               f"{self.spacing_m or self.spacing_deg:g} {'m' if self.spacing_m else 'degrees'}>"
 
 
 def grid(source: Volume | Source, moment: str = "REF", *, columns: int = 0, rows: int = 0, spacing_m: float = 0.0,

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import typing
-import weakref
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._library import call, sized
+from ._library import Handle, call, sized
 from .grids import Grid
 from .volume import Volume
 
@@ -31,12 +30,6 @@ class Picture(bytes):
 
     def __repr__(self) -> str:
         return f"<Picture, {len(self)} bytes of PNG>"
-
-
-class _Handle:
-    def __init__(self, pointer):
-        self.pointer = pointer
-        weakref.finalize(self, _library.free_picture, pointer)
 
 
 def draw(source: Volume | Grid | Source, product: str = "volume", moment: str | None = None, *, width: int = 0,
@@ -64,7 +57,7 @@ def draw(source: Volume | Grid | Source, product: str = "volume", moment: str | 
     name = "grid_draw" if isinstance(source, Grid) else "volume_draw"
     pointer = ctypes.c_void_p()
     call(name, source._handle.pointer, ctypes.byref(options), ctypes.byref(pointer))
-    handle = _Handle(pointer)
+    handle = Handle("picture", pointer)
     facts = sized(_library.PictureFacts)
     call("picture_describe", pointer, ctypes.byref(facts))
     first = ctypes.c_void_p()

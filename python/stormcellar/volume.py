@@ -10,13 +10,12 @@ import ctypes
 import enum
 import os
 import typing
-import weakref
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library, sources
-from ._library import call, sized
+from ._library import Handle, call, sized
 
 if typing.TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -46,14 +45,6 @@ _RADIAL = np.dtype([("time", "datetime64[ms]"), ("azimuth_deg", "f4"), ("elevati
                     ("unambiguous_range_m", "f4"), ("status", "i4"), ("azimuth_number", "i4")])
 
 
-class _Handle:
-    """Owns a volume of the library, and frees it when nothing refers to it."""
-
-    def __init__(self, pointer):
-        self.pointer = pointer
-        weakref.finalize(self, _library.free_volume, pointer)
-
-
 class Moment:
     """One moment of a sweep: rows of gates, one row for each radial, in the order of arrival.
 
@@ -77,7 +68,7 @@ class Moment:
     first_valid_code: int
     shape: tuple[int, int]
 
-    def __init__(self, handle: _Handle, sweep: int, number: int, radials: int):
+    def __init__(self, handle: Handle, sweep: int, number: int, radials: int):
         facts = sized(_library.MomentFacts)
         call("moment_describe", handle.pointer, sweep, number, ctypes.byref(facts))
         self._handle, self._sweep, self._number = handle, sweep, number
@@ -161,7 +152,7 @@ class Sweep:
     moments: dict[str, Moment]
     kinds: list[Moment]
 
-    def __init__(self, handle: _Handle, number: int):
+    def __init__(self, handle: Handle, number: int):
         facts = sized(_library.SweepFacts)
         call("sweep_describe", handle.pointer, number, ctypes.byref(facts))
         self.number = number
@@ -230,7 +221,7 @@ class Volume:
         self._take(pointer)
 
     def _take(self, pointer):
-        self._handle = _Handle(pointer)
+        self._handle = Handle("volume", pointer)
         facts = sized(_library.VolumeFacts)
         call("volume_describe", pointer, ctypes.byref(facts))
         self.station = facts.station.decode()

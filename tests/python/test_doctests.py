@@ -1,4 +1,5 @@
-"""Runs the examples of the docstrings, and requires examples and types. FILE is a real volume."""
+"""Runs the examples of the docstrings, and requires examples and types. FILE is a real volume; CATALOG and CACHE are
+directories with its facts and its grid."""
 
 import doctest
 import importlib
@@ -7,11 +8,13 @@ import inspect
 import os
 import pathlib
 import pkgutil
+import tempfile
 import unittest
 
 import numpy as np
 
 import stormcellar
+from cellar import PROGRAM, make_cache, make_catalog
 
 BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
 DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
@@ -24,7 +27,10 @@ def has(name):
 def missing(name):
     """Returns what an example needs and this machine lacks, or None."""
     needs = {"stormcellar.backend": "xarray", "stormcellar.trees": "xarray", "stormcellar.volume.Volume.to_pyart": "pyart",
-             "stormcellar.grids.Grid.to_dataset": "xarray"}
+             "stormcellar.grids.Grid.to_dataset": "xarray", "stormcellar.lazy": "xarray",
+             "stormcellar.caches.Cache.open": "xarray"}
+    if name.startswith(("stormcellar.caches.", "stormcellar.catalogs.Cat")) and not PROGRAM:
+        return "command line that makes a catalog and a cache"
     found = next((needed for start, needed in needs.items() if name.startswith(start) and not has(needed)), None)
     if found is None and name == "stormcellar.trees.open_datatree":
         import xarray
@@ -49,8 +55,13 @@ def public():
 class Documentation(unittest.TestCase):
     @unittest.skipUnless(DATA, "no real volumes: set STORMCELLAR_DATA")
     def test_examples_give_what_they_say(self):
-        known = {"FILE": str(pathlib.Path(DATA) / "volumes/KTLX19990503_235621.gz"), "np": np,
-                 "stormcellar": stormcellar}
+        file = pathlib.Path(DATA) / "volumes/KTLX19990503_235621.gz"
+        known = {"FILE": str(file), "np": np, "stormcellar": stormcellar}
+        if PROGRAM:
+            folder = tempfile.TemporaryDirectory()
+            self.addCleanup(folder.cleanup)
+            known |= {"CATALOG": make_catalog(folder.name, [file]),
+                      "CACHE": make_cache(folder.name, [file], "1999-05-03", "1999-05-05")}
         runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
         for name in ["stormcellar", *(f"stormcellar.{one.name}" for one in pkgutil.iter_modules(stormcellar.__path__))]:
             if missing(name):
