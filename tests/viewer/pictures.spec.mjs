@@ -86,6 +86,53 @@ test.describe('a saved picture', () => {
   });
 });
 
+// Keeps the texts that are drawn from now on, by the id of their canvas; a saved picture has no id.
+const catchTexts = (page) =>
+  page.evaluate(() => {
+    window.drawnTexts = {};
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
+      (window.drawnTexts[this.canvas.id] ??= []).push(text);
+      fillText.call(this, text, ...at);
+    };
+  });
+const textsOn = (page, id) => page.evaluate((id) => window.drawnTexts[id] ?? [], id);
+
+test('page and saved picture tell scale, station, Nyquist velocity and radar status', async ({ page, viewer, server }) => {
+  const { station } = server;
+  await page.route(/\/api\/v1\/grids\/[^/]+\/VEL\/[^/]+$/, async (route) => {
+    const response = await route.fetch();
+    const facts = await response.json();
+    facts.provenance.radar_troubles = [`${station}: on auxiliary power`];
+    await route.fulfill({ response, json: facts });
+  });
+  await viewer.open(view(station, '64 slices').replace('REF', 'VEL'));
+  const { stations } = await server.json(`stations?station=${station}`);
+  const { path } = await server.grid(station, 'VEL');
+  const { sweeps } = await server.json(`stations/${station}/volumes/${path.split('/').pop()}/sweeps`);
+  const speeds = sweeps
+    .filter(({ moments }) => moments.some(({ moment, chosen }) => moment === 'VEL' && chosen))
+    .map(({ nyquist_mps }) => Number(nyquist_mps.toFixed(1)));
+  const [least, most] = [Math.min(...speeds), Math.max(...speeds)];
+  const nyquist = `Nyquist velocity ${least === most ? '' : `${least} to `}${most} m/s`;
+  const told = `${nyquist} · The radar reports ${station}: on auxiliary power`;
+  const place = [stations[0].name, stations[0].state].filter(Boolean).join(', ');
+  await expect(viewer.byId('title')).toContainText(`${station}  ${place}  20`);
+  await expect(viewer.byId('station-told')).toHaveText(told);
+  await viewer.catchLinks();
+  await catchTexts(page);
+  await viewer.takenBy('save');
+  expect(await textsOn(page, 'labels'), 'the scale').toContainEqual(expect.stringMatching(/^\d+ km at the center$/));
+  const saved = (await textsOn(page, '')).join('  ');
+  expect(saved).toContain(`${station}  ${place}`);
+  expect(saved).toContain(told);
+  // The lowest cut alone has one Nyquist velocity. Moments without velocities have none.
+  await viewer.show(`${view(station, '64 slices').replace('REF', 'VEL')}&volume=0&elevation=0.5`);
+  await expect(viewer.byId('station-told')).toHaveText(/^Nyquist velocity [\d.]+ m\/s · /);
+  await viewer.settled(() => viewer.press('moment-REF'));
+  await expect(viewer.byId('station-told')).toBeHidden();
+});
+
 // 2026-11-28: the button of the next moment was highlighted while the old picture was still shown.
 test('the button of the drawn moment is highlighted', async ({ page, viewer, server: { station } }) => {
   await viewer.open(view(station, '64 slices'));

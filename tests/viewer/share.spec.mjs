@@ -245,6 +245,8 @@ test.describe('sharing', { tag: '@full' }, () => {
     expect(await page.locator('button:visible, select:visible, input:visible').count()).toBe(0);
     await expect(page.locator('#title')).toBeVisible();
     await expect(page.locator('#picture')).toBeVisible();
+    // 2026-11-30: the needle of the compass was drawn in the upper left corner.
+    expect(await page.locator('#compass').boundingBox(), 'the place of the compass').toMatchObject({ width: expect.closeTo(48, 0) });
     await viewer.open(`domain=${station}&moment=REF`);
     expect(await page.locator('button:visible').count(), 'controls of the page itself').toBeGreaterThan(5);
   });

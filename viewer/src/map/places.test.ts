@@ -86,7 +86,7 @@ test('outlines follow the border of the grid', () => {
         nx: 460,
         ny: 400,
         greatest: null,
-        provenance: { source_files: [], stations: [], predicted_error: '', sweeps: [] },
+        provenance: { source_files: [], stations: [], predicted_error: '', radar_troubles: [], sweeps: [] },
         audit: null,
     };
     const center = { latitudeDeg: 35, longitudeDeg: -97 };

@@ -280,7 +280,9 @@ export class Drawing {
             this.labels.height = geometry.height;
         }
         const scale = textScale();
-        const taken = [...document.querySelectorAll('header, footer, section, #bar, #legend, #compass, #reset-view')]
+        const taken = [
+            ...document.querySelectorAll('header, footer, section, #bar, #legend, #compass, #reset-view, #scale'),
+        ]
             .map((one) => one.getBoundingClientRect())
             .filter((rect) => rect.width > 0)
             .map(({ left, top, right, bottom }) => ({

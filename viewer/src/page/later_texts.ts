@@ -46,6 +46,10 @@ export const panelTexts = {
         several: 'A command draws one layer. Hide the others to copy one.',
         none: 'No layer is shown.',
     },
+    nyquist: (least: string, most: string) =>
+        `Nyquist velocity ${least === most ? least : `${least.replace(/ .*/, '')} to ${most}`}`,
+    reported: (trouble: string) => `The radar reports ${trouble}`,
+    atCenter: (length: string) => `${length} at the center`,
     netcdf: 'Download netCDF',
     noNetcdf: 'A merged region or an interpolated frame cannot be downloaded as netCDF.',
     close: 'Close',

@@ -387,7 +387,7 @@ export class LayerMaker {
         const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
     }
-    private rowsOf({ loaded, time }: Shown, station: string): Promise<{ time: string; rows: SweepRow[] }> {
+    rowsOf({ loaded, time }: Shown, station: string): Promise<{ time: string; rows: SweepRow[] }> {
         const known = this.rows.get(loaded) ?? new Map<string, Promise<{ time: string; rows: SweepRow[] }>>();
         this.rows.set(loaded, known);
         let asked = known.get(station);

@@ -96,7 +96,8 @@ export class Live {
     }
     // Asks which stations are silent, because events report only later changes.
     private async askSilences(): Promise<void> {
-        const { silent, serverMs } = await silences();
+        const { silent, names, serverMs } = await silences();
+        this.app.server.names = new Map(names);
         this.app.server.take(true, serverMs);
         this.app.server.takeSilences(silent);
     }

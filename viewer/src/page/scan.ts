@@ -2,7 +2,7 @@
 
 import { SweepRow, VolumeRow } from '../wire/api';
 import { isMoment, momentFacts } from '../wire/moments';
-import { kindOf } from '../fields/sweep_choice';
+import { isChosen, kindOf } from '../fields/sweep_choice';
 import { panelTexts } from './later_texts';
 import { texts } from './texts';
 
@@ -22,6 +22,16 @@ export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: numbe
         row.nyquist_mps === undefined ? '' : speedText(row.nyquist_mps),
         measured.join(' '),
     ];
+}
+
+// Returns the least and the greatest Nyquist velocity of the cuts from which a moment is taken; null if none is known.
+export function nyquistOf(rows: SweepRow[], moment: string): [number, number] | null {
+    const having = rows.filter((row) => row.moments.some((one) => one.moment === moment));
+    const chosen = having.filter((row) => isChosen(row, moment));
+    const known = (chosen.length > 0 && rows.length > 1 ? chosen : having).flatMap(({ nyquist_mps: mps }) =>
+        mps ? [mps] : [],
+    );
+    return known.length === 0 ? null : [Math.min(...known), Math.max(...known)];
 }
 
 export interface Progress {

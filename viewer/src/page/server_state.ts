@@ -4,6 +4,7 @@ export class ServerState {
     isCutOff = false; // the server does not answer
     isBehind = false; // a request got no answer, so the page must ask for all lists again
     silentSince = new Map<string, number>(); // silent stations, with the time of their last data in ms since 1970
+    names = new Map<string, string>(); // name and state of stations, as "Norman, OK"
     private clockAheadMs = 0; // server's clock minus browser's clock
 
     constructor(private changed: () => void) {}

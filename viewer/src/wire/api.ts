@@ -64,6 +64,7 @@ export interface GridFacts {
         source_files: string[];
         stations: string[];
         predicted_error: string;
+        radar_troubles: string[]; // faults that radars reported: "KTLX: standby, ..."
         sweeps: SweepTime[];
     };
     audit: { unit: string; summary: string; rows: AuditRow[] } | null;
@@ -149,15 +150,24 @@ export async function domains(): Promise<Domain[]> {
 export async function stations(): Promise<Station[]> {
     return (await told<{ stations: Station[] }>('api/v1/stations')).stations;
 }
-// Returns the silent stations, each with the seconds since data came from it, and the time of the server. Also returns
-// the stations of which the server does not know whether they are silent, with undefined instead of seconds.
-export async function silences(): Promise<{ silent: [string, number | undefined][]; serverMs: number }> {
+// Returns the silent stations, each with the seconds since data came from it, the names of stations, and the time of
+// the server. Also returns the stations of which the server does not know whether they are silent, with undefined
+// instead of seconds.
+export async function silences(): Promise<{
+    silent: [string, number | undefined][];
+    names: [string, string][];
+    serverMs: number;
+}> {
     const answer = await ask('api/v1/stations');
     const { stations } = (await answer.json()) as { stations: Station[] };
     const silent = stations.flatMap(({ station, silent_s }): [string, number | undefined][] =>
         silent_s === null ? [] : [[station, silent_s]],
     );
-    return { silent, serverMs: timeOf(answer) };
+    const names = stations.map(({ station, name, state }): [string, string] => [
+        station,
+        [name, state].filter(Boolean).join(', '),
+    ]);
+    return { silent, names, serverMs: timeOf(answer) };
 }
 export function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return told(gridPath(domain, moment, time));

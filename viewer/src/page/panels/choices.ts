@@ -43,6 +43,7 @@ function putTitle(app: App, facts: FactsOfShown): void {
     const moment = isSweepAlone ? sweepMoment(layers, shown.moment) : shown.moment;
     const { grid } = shown.loaded;
     const names = grid.sites.map((site) => site.icao).join(', ');
+    const place = (grid.sites.length === 1 && app.server.names.get(names)) || '';
     const time = new Date(grid.timeMs)
         .toISOString()
         .replace('T', ' ')
@@ -55,7 +56,7 @@ function putTitle(app: App, facts: FactsOfShown): void {
     ];
     // Put the age into a span of its own, which a saved picture leaves out.
     const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS, '')}` : '');
-    element('title').replaceChildren([names, time, ...notes.filter((note) => note !== '')].join('  '), age);
+    element('title').replaceChildren([names, place, time, ...notes].filter(Boolean).join('  '), age);
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 
@@ -135,7 +136,7 @@ export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): voi
         putTitle(app, facts);
         putNotice(app);
     }, againAfterMs);
-    app.on(['shown', 'view'], () => putTitle(app, facts));
+    app.on(['shown', 'view', 'notice'], () => putTitle(app, facts));
     app.on('shown', () => {
         // Only the facts tell the tilts of an incomplete volume.
         if (app.shown?.loaded.grid.isPartial && !isRegion(app.shown.domain))

@@ -14,8 +14,10 @@ import { Hover } from './hover';
 import { LayersPanel } from './layers_panel';
 import { addLook } from './look';
 import { Reader } from './reader';
+import { addScale } from './scale_mark';
 import { ScanPanel } from './scan_panel';
 import { addShare } from './share';
+import { StationLine } from './station_line';
 import { ToolsPanel } from './tools';
 import { addUnits } from './unit_choice';
 
@@ -39,6 +41,8 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     new ToolsPanel(app, drawing, pointers, facts).begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);
     new ScanPanel(app, drawing).begin(keys);
+    new StationLine(app, drawing, facts).begin();
+    addScale(app, drawing);
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;
