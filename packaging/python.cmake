@@ -20,6 +20,9 @@ configure_file(debian/python3/METADATA.in METADATA @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/METADATA debian/python3/entry_points.txt
   DESTINATION ${metadata} COMPONENT python EXCLUDE_FROM_ALL)
 stormcellar_debian_documents(python python3-stormcellar)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/examples
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-stormcellar COMPONENT python EXCLUDE_FROM_ALL
+  FILES_MATCHING PATTERN "*.py")
 
 configure_file(debian/python3/CPackPython.cmake.in ${PROJECT_BINARY_DIR}/CPackPython.cmake @ONLY)
 add_custom_target(python-package
