@@ -297,6 +297,45 @@ STORMCELLAR_API stormcellar_code stormcellar_grid_states(const stormcellar_grid*
                                                          const uint8_t** states,
                                                          stormcellar_error* error);
 
+// A table of how exact and how fast each way of gridding (rung) is on a volume, as `stormcellar
+// accuracy` measures it (docs/accuracy.md).
+typedef struct stormcellar_ladder stormcellar_ladder;
+
+typedef struct stormcellar_ladder_options {
+    size_t size;
+    int32_t columns;  // that are compared; 0: 2,000
+    int32_t rounds;   // of timing, of which the fastest counts; 0: 3
+} stormcellar_ladder_options;
+
+// Measures on the grid of the options; their interpolation and mean_of_cell do not count. Takes 20
+// s for the usual grid.
+STORMCELLAR_API stormcellar_code stormcellar_ladder_measure(
+    const stormcellar_volume* volume, const stormcellar_grid_options* options,
+    const stormcellar_ladder_options* ladder_options, stormcellar_ladder** ladder, size_t* count,
+    stormcellar_error* error);
+// Frees a ladder; null is allowed.
+STORMCELLAR_API void stormcellar_ladder_free(stormcellar_ladder* ladder);
+
+// One way of doing a step, compared with the exact chain on the same gates. The texts live as long
+// as the ladder.
+typedef struct stormcellar_rung {
+    size_t size;
+    const char* step;     // "interpolation"; "chain": a whole chain
+    const char* name;     // "eight-point"
+    char value_unit[16];  // "dB"
+    int32_t rung;         // from cheap to exact, from 0
+    int32_t pareto;       // 1 if no other rung of the step is as fast and as exact
+    double time_s;        // of the first grid
+    double kept_time_s;   // of further grids with the same geometry
+    double position_max_m, position_rms_m;
+    double value_rms, value_p95, value_p99, value_max;  // errors of cells with a value in both
+    double status_disagreement;                         // share of cells with another state
+} stormcellar_rung;
+
+STORMCELLAR_API stormcellar_code stormcellar_ladder_describe(const stormcellar_ladder* ladder,
+                                                             size_t index, stormcellar_rung* rung,
+                                                             stormcellar_error* error);
+
 // A picture as pixels, rows of red, green, blue and alpha (sRGB, alpha not premultiplied) from the
 // top, or as the bytes of a PNG file.
 typedef struct stormcellar_picture stormcellar_picture;

@@ -14,6 +14,7 @@ library libstormcellar.so.0, which releases the interpreter's lock.
 import typing
 
 from ._library import Error, version
+from .accuracies import Table, accuracy
 from .caches import Cache
 from .catalogs import Catalog, CatalogEntry
 from .grids import CellState, Grid, grid, mosaic
@@ -24,7 +25,7 @@ if typing.TYPE_CHECKING:
     from .trees import open_datatree, open_volume
 
 __all__ = ["Cache", "Catalog", "CatalogEntry", "CellState", "Error", "Grid", "Moment", "Picture", "State", "Sweep",
-           "Volume", "draw", "grid", "mosaic", "open_datatree", "open_volume", "version"]
+           "Table", "Volume", "accuracy", "draw", "grid", "mosaic", "open_datatree", "open_volume", "version"]
 
 
 def __getattr__(name: str) -> typing.Any:

@@ -72,6 +72,18 @@ class MosaicOptions(Structure):
     _fields_ = [("size", c_size_t), ("overlap", c_char_p), ("length_m", c_double)]
 
 
+class LadderOptions(Structure):
+    _fields_ = [("size", c_size_t), ("columns", c_int32), ("rounds", c_int32)]
+
+
+class Rung(Structure):
+    _fields_ = [("size", c_size_t), ("step", c_char_p), ("name", c_char_p), ("value_unit", c_char * 16),
+                ("rung", c_int32), ("pareto", c_int32), ("time_s", c_double), ("kept_time_s", c_double),
+                ("position_max_m", c_double), ("position_rms_m", c_double), ("value_rms", c_double),
+                ("value_p95", c_double), ("value_p99", c_double), ("value_max", c_double),
+                ("status_disagreement", c_double)]
+
+
 class DrawOptions(Structure):
     _fields_ = [("size", c_size_t), ("product", c_char_p), ("moment", c_char_p), ("width", c_int32),
                 ("height", c_int32), ("settings", POINTER(c_char_p)), ("setting_count", c_int32), ("format", c_int32),
@@ -145,6 +157,8 @@ _FUNCTIONS = {
     "grid_merge": [c_void_p, c_size_t, POINTER(MosaicOptions), POINTER(c_void_p)],
     "grid_states": [c_void_p, c_void_p],
     "grid_read": [c_char_p, POINTER(c_void_p)],
+    "ladder_measure": [c_void_p, POINTER(GridOptions), POINTER(LadderOptions), POINTER(c_void_p), POINTER(c_size_t)],
+    "ladder_describe": [c_void_p, c_size_t, POINTER(Rung)],
     "catalog_open": [c_char_p, POINTER(c_void_p)],
     "catalog_list": [c_void_p, POINTER(Query), POINTER(c_void_p), POINTER(c_size_t)],
     "file_list_describe": [c_void_p, c_size_t, POINTER(FileFacts)],
@@ -156,7 +170,7 @@ for _name, _arguments in _FUNCTIONS.items():
     _function = getattr(_library, "stormcellar_" + _name)
     _function.argtypes = [*_arguments, POINTER(ErrorStruct)]
     _function.restype = c_int
-for _name in ("volume", "grid", "picture", "catalog", "file_list", "cache", "grid_list"):
+for _name in ("volume", "grid", "picture", "catalog", "file_list", "cache", "grid_list", "ladder"):
     _function = getattr(_library, f"stormcellar_{_name}_free")
     _function.argtypes = [c_void_p]
     _function.restype = None

@@ -180,7 +180,7 @@ def grid(source: Volume | Source, moment: str = "REF", *, columns: int = 0, rows
     <Grid VEL, 100 x 100 x 32 cells of 1000 m>
     """
     volume = source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
-    asked = _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
+    asked = grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
                      threads)
     pointer = ctypes.c_void_p()
     call("grid_make", volume._handle.pointer, ctypes.byref(asked), ctypes.byref(pointer))
@@ -213,7 +213,7 @@ def mosaic(sources: Iterable[Grid | Volume | Source], moment: str = "REF", *, co
         return Grid(pointer)
     volumes = [source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
                for source in sources]
-    asked = _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
+    asked = grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
                      threads)
     call("mosaic_make", _pointers(volumes), len(volumes), ctypes.byref(asked), ctypes.byref(rule),
          ctypes.byref(pointer))
@@ -224,7 +224,7 @@ def _pointers(objects):
     return (ctypes.c_void_p * len(objects))(*(one._handle.pointer.value for one in objects))
 
 
-def _options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z, threads):
+def grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z, threads):
     heights = np.ascontiguousarray([] if levels_m is None else levels_m, "f8")
     asked = sized(_library.GridOptions, moment=moment.encode(), columns=columns, rows=rows, spacing_m=spacing_m,
                   levels_m=heights.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) if heights.size else None,
