@@ -23,6 +23,8 @@ SOURCE = pathlib.Path(__file__).resolve().parent.parent
 WORK = SOURCE / "build" / "wheel"
 NAME = "libstormcellar.so.0"
 
+FONTS = pathlib.Path("/usr/share/fonts/truetype/dejavu")  # of Debian's package fonts-dejavu-core, for pictures
+
 # Libraries that every Linux with a C++ compiler's runtime has. A wheel that brought its own would clash with them.
 OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|gcc_s|stdc\+\+))\.so\.\d+")
 
@@ -74,12 +76,22 @@ def carry(library, package):
     return list(copies)
 
 
-def copy_licenses(libraries, folder):
-    """Copies the copyright files of Debian's packages of the libraries, whose licenses ask for this."""
+def carry_fonts(package):
+    """Copies the font of pictures into the folder fonts, where the library looks if the machine has none."""
+    folder = package / "fonts"
+    folder.mkdir(exist_ok=True)
+    fonts = [FONTS / "DejaVuSans.ttf", FONTS / "DejaVuSans-Bold.ttf"]
+    for font in fonts:
+        shutil.copyfile(font, folder / font.name)
+    copy_licenses(fonts, folder)
+
+
+def copy_licenses(files, folder):
+    """Copies the copyright files of Debian's packages of the files, whose licenses ask for this."""
     if not shutil.which("dpkg"):
         return
-    for library in {path.resolve() for path in libraries}:
-        found = subprocess.run(["dpkg", "-S", f"*/{library.name}"], stdout=subprocess.PIPE, text=True).stdout
+    for file in {path.resolve() for path in files}:
+        found = subprocess.run(["dpkg", "-S", f"*/{file.name}"], stdout=subprocess.PIPE, text=True).stdout
         for package in {line.split(":")[0] for line in found.splitlines()}:
             terms = pathlib.Path("/usr/share/doc") / package / "copyright"
             if terms.is_file():
@@ -102,6 +114,7 @@ class Build(build_py):
     def run(self):
         super().run()
         package = pathlib.Path(self.build_lib) / "stormcellar"
+        carry_fonts(package)
         self.distribution.glibc_minor = glibc_minor(carry(built_library(), package))
 
 

@@ -5,9 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include <cairo-ft.h>
 #include <cairo.h>
+#include <dlfcn.h>
 
 namespace stormcellar::render {
 namespace {
@@ -17,6 +19,14 @@ constexpr double farthest_text_px = 1e6;
 constexpr std::array<const char*, 4> font_directories = {
     "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
     "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF"};
+
+// Returns the directory "fonts" beside the program or library that has this code. The wheel of the
+// Python package carries the font there, because a machine may have none.
+std::filesystem::path carried_font_directory() {
+    Dl_info own{};
+    if (::dladdr(&font_directories, &own) == 0 || own.dli_fname == nullptr) return {};
+    return std::filesystem::path(own.dli_fname).parent_path() / "fonts";
+}
 
 // The face of a font, with its bytes. Cairo frees both, because it may keep the face in its caches
 // after we release it.
@@ -41,8 +51,11 @@ std::shared_ptr<cairo_font_face_t> load_face(const char* name) {
     static const cairo_user_data_key_t key{};
     auto font = std::make_unique<FreeTypeFace>();
     if (FT_Init_FreeType(&font->library) != 0) return nullptr;
-    for (const char* directory : font_directories) {
-        const std::string path = std::string(directory) + "/" + name;
+    std::vector<std::filesystem::path> directories(font_directories.begin(),
+                                                   font_directories.end());
+    directories.push_back(carried_font_directory());
+    for (const std::filesystem::path& directory : directories) {
+        const std::string path = directory / name;
         if (FT_New_Face(font->library, path.c_str(), 0, &font->face) != 0) continue;
         cairo_font_face_t* face = cairo_ft_font_face_create_for_ft_face(font->face, 0);
         if (cairo_font_face_set_user_data(face, &key, font.get(), free_face) ==

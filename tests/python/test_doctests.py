@@ -28,7 +28,7 @@ def missing(name):
     """Returns what an example needs and this machine lacks, or None."""
     needs = {"stormcellar.backend": "xarray", "stormcellar.trees": "xarray", "stormcellar.volume.Volume.to_pyart": "pyart",
              "stormcellar.grids.Grid.to_dataset": "xarray", "stormcellar.lazy": "xarray",
-             "stormcellar.caches.Cache.open": "xarray"}
+             "stormcellar.caches.Cache.open": "xarray", "stormcellar.accuracies.Table": "pandas"}
     if name.startswith(("stormcellar.caches.", "stormcellar.catalogs.Cat")) and not PROGRAM:
         return "command line that makes a catalog and a cache"
     found = next((needed for start, needed in needs.items() if name.startswith(start) and not has(needed)), None)
