@@ -45,7 +45,8 @@ def built_library():
         raise SystemExit("stormcellar: the library is built from a checkout, as in `pip wheel CHECKOUT/python`")
     subprocess.run(["cmake", "-S", SOURCE, "-B", WORK, "-DCMAKE_BUILD_TYPE=Release", "-DSTORMCELLAR_TESTS=OFF",
                     "-DSTORMCELLAR_BENCH=OFF"], check=True)
-    subprocess.run(["cmake", "--build", WORK, "--target", "stormcellar_shared", "--parallel"], check=True)
+    subprocess.run(["cmake", "--build", WORK, "--target", "stormcellar_shared", "--parallel", str(os.cpu_count() or 1)],
+                   check=True)
     return (WORK / "capi" / NAME).resolve()
 
 
