@@ -69,7 +69,7 @@ export default defineConfig({
   projects: [
     {
       name: 'storms',
-      testMatch: /(look|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|access)\.spec\.mjs/,
+      testMatch: /(look|flat|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|access)\.spec\.mjs/,
       grepInvert: /@sequence/,
       use: { volumes: storms },
     },

@@ -124,3 +124,18 @@ test.describe('an instant for which there is no frame', () => {
     await expect(viewer.byId('notice')).toHaveText('');
   });
 });
+
+test('in 2D, arrows step through the times and keep the tilt', async ({ viewer, newest }) => {
+  await viewer.settled(() => viewer.key('2'));
+  await viewer.settled(() => viewer.key('ArrowUp'));
+  const seen = [await viewer.text('layers-told')];
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowRight']) {
+    await viewer.settled(() => viewer.key(key));
+    seen.push(await viewer.text('layers-told'));
+  }
+  expect(seen[3], 'back at an earlier time').toBe(seen[1]);
+  expect(new Set(seen).size, 'sweeps of three times').toBe(3);
+  const tilts = seen.map((text) => Number(text.match(/[\d.]+(?=°)/)[0]));
+  expect(tilts[0], 'the second tilt').toBeGreaterThan(0.7);
+  expect(Math.max(...tilts) - Math.min(...tilts), `tilts ${tilts}`).toBeLessThan(0.25);
+});

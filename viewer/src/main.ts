@@ -11,6 +11,7 @@ import { Budget, Loader } from './page/loader';
 import { addChoices } from './page/panels/choices';
 import { addLegend } from './page/panels/legend';
 import { loadLayers } from './page/panels/load_layers';
+import { addMode } from './page/panels/mode_choice';
 import { addPanels } from './page/panels/open_panels';
 import { addTimeline } from './page/panels/time_bar';
 import { Pointers } from './page/pointers';
@@ -37,6 +38,7 @@ function begin(): void {
     addPanels({ app, drawing, facts, keys, pointers });
     loadLayers(app, drawing);
     addCompass(app, drawing);
+    addMode(app, drawing);
     // Tell the style sheet the height of the head, so that panels leave room for all its lines.
     const head = element('head');
     new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { cutOf, cutsOf, kindOf, nearestSite } from './sweep_choice';
+import { cutOf, kindOf, nearestSite, nextTilt, tiltsOf } from './sweep_choice';
 import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from './sweep_cone';
 import { planeOf } from '../earth/projection';
 import { PackedError } from '../wire/packed_grid';
@@ -112,9 +112,13 @@ test('a split cut shows the half that pictures take, and either half can be chos
     assert.equal(shown('REF', 0.5, 1), 1, 'the user chose this cut by its number');
     assert.equal(shown('REF', 0.5, 3), 4, 'cut 3 has another elevation, so its number does not count');
     assert.deepEqual(
-        cutsOf(rows, 'REF').map((one) => one.sweep),
-        [0, 1, 4, 5, 2, 3, 6],
+        tiltsOf(rows, 'REF').map((tilt) => tilt.map((one) => one.sweep)),
+        [[0, 1, 4, 5], [2, 3], [6]],
     );
+    const next = (moment: string, number: number, by: 1 | -1) => nextTilt(rows, moment, rows[number]!, by)?.sweep;
+    assert.deepEqual([next('REF', 4, 1), next('REF', 2, 1), next('REF', 6, 1)], [2, 6, undefined]);
+    assert.deepEqual([next('REF', 6, -1), next('REF', 3, -1), next('REF', 0, -1)], [2, 4, undefined]);
+    assert.deepEqual([next('VEL', 1, 1), next('VEL', 6, -1), next('SW', 6, 1)], [3, 3, undefined]);
     assert.deepEqual(
         rows.map((one) => kindOf(one, rows)),
         ['surveillance', 'doppler', 'surveillance', 'doppler', 'surveillance', 'doppler', ''],

@@ -9,8 +9,8 @@ const sameElevationDeg = 0.2; // as in include/stormcellar/grid/sweep_choice.h
 const has = (row: SweepRow, moment: string): boolean => row.moments.some((one) => one.moment === moment);
 const isSameElevation = (one: number, other: number): boolean => Math.abs(one - other) <= sameElevationDeg;
 
-// Returns the cuts that have the moment, by rising elevation; cuts of one elevation are in the order of the volume.
-export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
+// Returns the cuts that have the moment, grouped by rising elevation; cuts of a group are in the order of the volume.
+export function tiltsOf(rows: SweepRow[], moment: string): SweepRow[][] {
     const rising = rows.filter((row) => has(row, moment)).sort((a, b) => a.elevation_deg - b.elevation_deg);
     const groups: SweepRow[][] = [];
     for (const row of rising) {
@@ -18,7 +18,7 @@ export function cutsOf(rows: SweepRow[], moment: string): SweepRow[] {
         if (last && isSameElevation(last[0]!.elevation_deg, row.elevation_deg)) last.push(row);
         else groups.push([row]);
     }
-    return groups.flatMap((group) => group.sort((a, b) => a.sweep - b.sweep));
+    return groups.map((group) => group.sort((a, b) => a.sweep - b.sweep));
 }
 
 // Returns true if `stormcellar frame --product ppi` draws this cut of all cuts at its elevation.
@@ -38,6 +38,14 @@ export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, nu
         (best, row) => (best === null || off(row) < off(best) ? row : best),
         null,
     );
+}
+
+// Returns the cut of the next higher tilt (`by` is 1) or lower tilt (-1) that pictures take; null if there is none.
+export function nextTilt(rows: SweepRow[], moment: string, { sweep }: SweepRow, by: 1 | -1): SweepRow | null {
+    const tilts = tiltsOf(rows, moment);
+    const at = tilts.findIndex((tilt) => tilt.some((row) => row.sweep === sweep));
+    const next = at < 0 ? undefined : tilts[at + by];
+    return next?.find((row) => isChosen(row, moment)) ?? next?.[0] ?? null;
 }
 
 // Returns the purpose of a half of a split cut; an empty text for a whole cut.

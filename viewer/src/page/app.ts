@@ -2,8 +2,10 @@
 // the state through methods of App, and App tells them what happened. Showing loads the wanted time, Playback chooses
 // it, and News handles news of the server.
 
+import { namedView } from '../camera/controls';
 import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../atlas/loaded_grid';
+import { Stance, elsewhere, switched } from '../scene/flat_view';
 import { ViewState, addressOf, usualState } from '../scene/view_state';
 import { ColorTable } from '../wire/color_tables';
 import { PlayerState, stopped } from '../time/player';
@@ -74,6 +76,7 @@ export class App {
     askedMoment = ''; // moment of the last call of choose(); the server may not have it
     private askedDomain = '';
     unreadTime = timeThatIsNone(); // time parameter of the address if it is not a time
+    private otherStance: Stance | null = null; // of 3D while the page shows 2D, and of 2D while it shows 3D
     private heard = new Map<Happening, (() => void)[]>();
     private addressBar = new AddressBar(() => addressOf(this.state));
 
@@ -144,18 +147,31 @@ export class App {
         this.changed();
     }
     moved(camera: Camera): void {
-        this.state.camera = camera;
+        this.state.camera = this.state.isFlat ? namedView(camera, 'top') : camera;
         this.addressBar.writeSoon();
         this.tell('camera');
     }
     // Returns true if the camera and the heights are those with which the page first shows a grid.
     get isFirstView(): boolean {
-        const { camera, exaggeration } = this.state;
-        return exaggeration === usualState.exaggeration && JSON.stringify(camera) === JSON.stringify(usualState.camera);
+        const { camera, exaggeration, isFlat } = this.state;
+        const isFirstHeight = isFlat || exaggeration === usualState.exaggeration;
+        return isFirstHeight && JSON.stringify(camera) === JSON.stringify(this.firstCamera);
+    }
+    private get firstCamera(): Camera {
+        return this.state.isFlat ? namedView(usualState.camera, 'top') : { ...usualState.camera };
     }
     resetView(): void {
-        this.state.exaggeration = usualState.exaggeration;
-        this.moved({ ...usualState.camera });
+        if (!this.state.isFlat) this.state.exaggeration = usualState.exaggeration;
+        this.moved(this.firstCamera);
+        this.changed();
+    }
+    // Switches to 2D or 3D, and to the camera and the layers that were there last.
+    showFlat(isFlat: boolean): void {
+        if (isFlat === this.state.isFlat) return;
+        const { camera, layers } = this.state;
+        this.state = switched(this.state, isFlat, this.otherStance);
+        this.otherStance = { camera, layers };
+        this.tell('camera');
         this.changed();
     }
     // Returns a link to what is shown now, even if this page follows the newest.
@@ -174,6 +190,7 @@ export class App {
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
         if (!this.isOnMap && unreadTime === '' && addressOf(next) === addressOf(this.state)) return;
         [this.state, this.unreadTime] = [next, unreadTime];
+        this.otherStance = null;
         this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
         void this.choose(next.domain, next.moment);
@@ -263,8 +280,8 @@ export class App {
 
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
-        this.state.camera = { ...this.state.camera, lookAtM: null, zoom: 1 };
-        this.state.layers = { ...this.state.layers, section: null, crop: null };
+        Object.assign(this.state, elsewhere(this.state));
+        this.otherStance &&= elsewhere(this.otherStance);
         await this.choose(domain, this.state.moment);
     }
 

@@ -281,7 +281,9 @@ export class Drawing {
         }
         const scale = textScale();
         const taken = [
-            ...document.querySelectorAll('header, footer, section, #bar, #legend, #compass, #reset-view, #scale'),
+            ...document.querySelectorAll(
+                'header, footer, section, #bar, #legend, #compass, #reset-view, #scale, #sight',
+            ),
         ]
             .map((one) => one.getBoundingClientRect())
             .filter((rect) => rect.width > 0)

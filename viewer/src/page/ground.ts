@@ -60,12 +60,18 @@ export class Ground {
     isWaiting = false; // the map has not come
     private asked: { key: string; found: Promise<MapOnPlane | null> } | null = null;
     private shownKey = '';
+    private shown: { grid: PackedGrid; found: MapOnPlane | null } | null = null;
+    private isFlat = false; // the ground is that of 2D
 
     constructor(
         private app: App,
         private renderer: Renderer,
         private redraw: () => void,
-    ) {}
+    ) {
+        app.on('view', () => {
+            if (this.shown && this.isFlat !== app.state.isFlat) this.put(this.shown.grid, this.shown.found);
+        });
+    }
 
     forget(): void {
         this.shownKey = '';
@@ -106,11 +112,14 @@ export class Ground {
         this.redraw();
     }
 
-    // Shows rings about the sites, and the map if it was found.
+    // Shows rings about the sites, the border of the grid in 3D, and the map if it was found.
     private put(grid: PackedGrid, found: MapOnPlane | null): void {
+        this.shown = { grid, found };
+        this.isFlat = this.app.state.isFlat;
         const { halfXM, halfYM } = boxOf(grid);
         const rings = ringLines(grid.sites, planeOf(grid), halfXM, halfYM, this.app.state.units);
-        this.renderer.showLines([...(found?.lines ?? []), ...rings.lines]);
+        const lines = rings.lines.filter(({ kind }) => kind !== 'border' || !this.isFlat);
+        this.renderer.showLines([...(found?.lines ?? []), ...lines]);
         this.renderer.showWater(found?.water ?? null);
         this.marks = [...rings.marks, ...(found?.cities ?? [])];
     }

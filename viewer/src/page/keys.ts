@@ -7,12 +7,12 @@ import { Drawing } from './drawing';
 const keyStep = 20; // an arrow acts like a drag by this many pixels
 const farther = 2; // factor for keys that move the scene
 
-// Returns true if the control with the focus has no use for a key.
+// Returns true if the control with the focus has no use for a key. Arrows scroll a panel, unless it is the one of 2D.
 function isUnused({ target, key }: KeyboardEvent): boolean {
-    const isControl =
-        target instanceof HTMLButtonElement ||
-        (target instanceof HTMLInputElement && ['checkbox', 'range'].includes(target.type));
-    return isControl && (key === 'Escape' || (key.length === 1 && key !== ' '));
+    const isButton = target instanceof HTMLButtonElement;
+    const isControl = isButton || (target instanceof HTMLInputElement && ['checkbox', 'range'].includes(target.type));
+    const isArrow = isButton && key.startsWith('Arrow') && target.closest('#sight') !== null;
+    return isControl && (key === 'Escape' || isArrow || (key.length === 1 && key !== ' '));
 }
 
 export class Keys {
@@ -38,6 +38,10 @@ export class Keys {
         this.add(' ', () => app.playback.play());
         this.add(',', () => app.playback.step(-1));
         this.add('.', () => app.playback.step(1));
+        this.add('2', () => app.showFlat(true));
+        this.add('3', () => app.showFlat(false));
+        this.add('ArrowLeft', () => app.playback.step(-1));
+        this.add('ArrowRight', () => app.playback.step(1));
     }
 
     // Adds an action for a key, named as in KeyboardEvent.key or by a lowercase letter. Only Escape may have
@@ -70,6 +74,7 @@ export class Keys {
     }
 
     look(view: NamedView): void {
+        if (view !== 'top') this.app.showFlat(false);
         this.app.moved(namedView(this.app.state.camera, view));
     }
     togglePerspective(): void {
@@ -89,15 +94,17 @@ export class Keys {
             ArrowUp: [0, -keyStep],
             ArrowDown: [0, keyStep],
         };
-        const way = ways[event.key];
+        const { isFlat } = this.app.state;
+        // In 2D, only arrows with Shift move the map.
+        const way = isFlat && !event.shiftKey ? undefined : ways[event.key];
         const geometry = this.drawing.geometry();
         const action = this.actions.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
-        if (way && geometry) {
+        if (way) {
             const { camera } = this.app.state;
-            this.app.moved(dragged(camera, geometry, way, farther, event.shiftKey));
+            if (geometry) this.app.moved(dragged(camera, geometry, way, farther, event.shiftKey && !isFlat));
         } else if (action) {
             action();
-        } else if (this.early && event.key.length === 1) {
+        } else if (this.early && (event.key.length === 1 || event.key in ways)) {
             this.early.push(event);
             this.onEarly();
         } else {

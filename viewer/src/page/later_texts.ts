@@ -66,6 +66,14 @@ export const panelTexts = {
         several: 'Several radars are merged here. Choose one of them to see its cuts.',
         between: 'This frame is interpolated. It is no scan.',
     },
+    tilts: {
+        name: 'Tilt',
+        list: 'Cut',
+        lower: 'Lower tilt (↓)',
+        higher: 'Higher tilt (↑)',
+        none: 'no tilt',
+        at: (degrees: number) => `${degrees.toFixed(1)}°`,
+    },
     // Keys and gestures, in groups with a title.
     keys: [
         [
@@ -77,12 +85,21 @@ export const panelTexts = {
                 ['← → ↑ ↓', 'turn'],
                 ['Shift + ← → ↑ ↓', 'move'],
                 ['+ −', 'zoom'],
-                ['T', 'map, north up'],
+                ['2 3', '2D, 3D'],
+                ['T', 'from above, north up'],
                 ['S', 'from the south'],
                 ['O', 'obliquely'],
                 ['P', 'perspective or parallel'],
                 ['0', 'back to the first view'],
                 ['H', 'map of all radars'],
+            ],
+        ],
+        [
+            'In 2D',
+            [
+                ['Drag, Shift + ← → ↑ ↓', 'move'],
+                ['↑ ↓', 'higher, lower tilt'],
+                ['← →', 'earlier, later'],
             ],
         ],
         [

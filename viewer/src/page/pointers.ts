@@ -86,15 +86,14 @@ export class Pointers {
         const [dx, dy] = [event.clientX - before.clientX, event.clientY - before.clientY];
         this.travelled += Math.abs(dx) + Math.abs(dy);
         this.pointers.set(event.pointerId, event);
-        const { camera } = this.app.state;
+        const { camera, isFlat } = this.app.state;
         if (this.pointers.size === 2) {
             this.pinch(before, event, dx, dy);
         } else if (this.isTaken) {
             this.tool.drag?.(...this.at(event));
         } else {
-            this.app.moved(
-                dragged(camera, geometry, [dx, dy], pixelRatio(), event.shiftKey || (event.buttons & 2) !== 0),
-            );
+            const isOther = !isFlat && (event.shiftKey || (event.buttons & 2) !== 0);
+            this.app.moved(dragged(camera, geometry, [dx, dy], pixelRatio(), isOther));
         }
     }
 
@@ -103,7 +102,11 @@ export class Pointers {
         const fixed = [...this.pointers.values()].find((one) => one.pointerId !== event.pointerId)!;
         const was = Math.hypot(before.clientX - fixed.clientX, before.clientY - fixed.clientY);
         const is = Math.hypot(event.clientX - fixed.clientX, event.clientY - fixed.clientY);
-        const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was));
+        // Keep the place between the fingers.
+        const { left, top } = this.drawing.picture.getBoundingClientRect();
+        const x = ((fixed.clientX + before.clientX) / 2 - left) * pixelRatio();
+        const y = ((fixed.clientY + before.clientY) / 2 - top) * pixelRatio();
+        const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was), x, y);
         this.app.moved(panned(nearer, geometry, (dx / 2) * pixelRatio(), (dy / 2) * pixelRatio()));
     }
 

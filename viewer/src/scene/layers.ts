@@ -85,6 +85,21 @@ export const usualLayers: Layers = {
     hasFolded: null,
 };
 
+// The sweep nearest to this elevation is shown first.
+export const lowestTiltDeg = 0.5;
+
+// Returns the layers of a flat map (2D): one sweep, with the marks that the user has chosen for it.
+export const flatLayers = (layers: Layers): Layers => ({
+    ...usualLayers,
+    hasVolume: false,
+    sweepDeg: layers.sweepDeg ?? lowestTiltDeg,
+    sweepNumber: layers.sweepNumber,
+    isSweepDealiased: layers.isSweepDealiased,
+    isSweepWeather: layers.isSweepWeather,
+    hasGlyphs: layers.hasGlyphs,
+    hasCells: layers.hasCells,
+});
+
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
 const kilometers = (m: number): string => rounded(m / 1000, 3);
 const cropSides = ['westM', 'eastM', 'southM', 'northM', 'bottomM', 'topM'] as const;

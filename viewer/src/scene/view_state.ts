@@ -1,5 +1,6 @@
 // Holds the view of the page, and reads and writes it as the text after # in the address.
 
+import { namedView } from '../camera/controls';
 import { Camera, usualCamera } from '../camera/geometry';
 import { geodesic } from '../earth/projection';
 import { moments, ranges, usualGrid } from '../facts';
@@ -11,6 +12,7 @@ import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
 import { quoted } from './shell';
 import {
     Layers,
+    flatLayers,
     layersAddress,
     layersOf,
     productOf,
@@ -25,6 +27,7 @@ export interface ViewState {
     moment: string;
     time: string; // ISO 8601, or 'latest'
     betweenS: number; // seconds between frames that are made between volumes; 0: no such frames
+    isFlat: boolean; // 2D: the camera is that of a map, and stays so
     camera: Camera;
     hasGround: boolean; // map and ground are drawn
     exaggeration: number;
@@ -44,6 +47,7 @@ export const usualState: ViewState = {
     moment: '',
     time: 'latest',
     betweenS: 0,
+    isFlat: false,
     camera: { ...usualCamera, tiltDeg: 60, fieldOfViewDeg: 40 },
     hasGround: true,
     exaggeration: 5,
@@ -78,6 +82,7 @@ export function addressOf(state: ViewState): string {
     if (camera.lookAtM) {
         parts.push(['look-at-km', camera.lookAtM.map((m) => rounded(m / 1000, 3)).join(',')]);
     }
+    if (state.isFlat) parts.push(['view', '2d']);
     if (state.betweenS > 0) parts.push(['between', rounded(state.betweenS, 0)]);
     if (!state.hasGround) parts.push(['ground', '0']);
     if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
@@ -87,6 +92,7 @@ export function addressOf(state: ViewState): string {
     if (state.countsFetches) parts.push(['count-fetches', '1']);
     for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
     parts.push(...layersAddress(state.layers));
+    if (state.isFlat && state.layers.hasVolume) parts.push(['volume', '1']);
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
 }
@@ -118,31 +124,38 @@ function timeOf(text: string): string {
     return Number.isNaN(Date.parse(time)) ? 'latest' : time;
 }
 
+function cameraOf(query: URLSearchParams): Camera {
+    const usual = usualState.camera;
+    const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
+    return {
+        azimuthDeg: number(query.get('azimuth'), { least: 0, most: 360 }, usual.azimuthDeg),
+        tiltDeg: number(query.get('tilt'), ranges.tiltDeg, usual.tiltDeg),
+        zoom: number(query.get('zoom'), ranges.zoom, usual.zoom),
+        fieldOfViewDeg: number(
+            query.get('field-of-view'),
+            { ...ranges.fieldOfViewDeg, least: 0 },
+            usual.fieldOfViewDeg,
+        ),
+        lookAtM:
+            lookAt.length === 3 && lookAt.every(Number.isFinite)
+                ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000]
+                : null,
+    };
+}
+
 // Reads the view from the text. A parameter that makes no sense keeps its usual value.
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
     const least = number(query.get('least'), { least: -1000, most: 1000 }, NaN);
-    const lookAt = (query.get('look-at-km') ?? '').split(',').map(Number);
+    const isFlat = query.get('view') === '2d';
     return {
         domain: (query.get('domain') ?? '').slice(0, 100),
         moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
         time: timeOf(query.get('time') ?? ''),
         betweenS: number(query.get('between'), { least: 10, most: 3600 }, 0),
-        camera: {
-            azimuthDeg: number(query.get('azimuth'), { least: 0, most: 360 }, usual.camera.azimuthDeg),
-            tiltDeg: number(query.get('tilt'), ranges.tiltDeg, usual.camera.tiltDeg),
-            zoom: number(query.get('zoom'), ranges.zoom, usual.camera.zoom),
-            fieldOfViewDeg: number(
-                query.get('field-of-view'),
-                { ...ranges.fieldOfViewDeg, least: 0 },
-                usual.camera.fieldOfViewDeg,
-            ),
-            lookAtM:
-                lookAt.length === 3 && lookAt.every(Number.isFinite)
-                    ? [lookAt[0]! * 1000, lookAt[1]! * 1000, lookAt[2]! * 1000]
-                    : null,
-        },
+        isFlat,
+        camera: isFlat ? namedView(cameraOf(query), 'top') : cameraOf(query),
         hasGround: query.get('ground') !== '0',
         exaggeration: number(query.get('exaggeration'), ranges.exaggeration, usual.exaggeration),
         opacity: number(query.get('opacity'), ranges.opacity, usual.opacity),
@@ -152,7 +165,7 @@ export function stateOf(text: string): ViewState {
         memoryMib: number(query.get('memory'), { least: 4, most: 4096 }, usual.memoryMib),
         countsFetches: query.get('count-fetches') === '1',
         drafts: draftsOf(query.getAll('table')),
-        layers: layersOf(query),
+        layers: isFlat && !query.has('volume') ? flatLayers(layersOf(query)) : layersOf(query),
         units: unitsOf(query.get('units') ?? ''),
     };
 }

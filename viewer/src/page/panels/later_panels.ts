@@ -18,6 +18,7 @@ import { addScale } from './scale_mark';
 import { ScanPanel } from './scan_panel';
 import { addShare } from './share';
 import { StationLine } from './station_line';
+import { addTilts } from './tilts';
 import { ToolsPanel } from './tools';
 import { addUnits } from './unit_choice';
 
@@ -43,6 +44,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     new ScanPanel(app, drawing).begin(keys);
     new StationLine(app, drawing, facts).begin();
     addScale(app, drawing);
+    addTilts(app, drawing, keys);
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;

@@ -1,13 +1,12 @@
 // Shows the panel of layers. Each layer has a checkbox and a key, and controls while it is on.
 
-import { cutsOf, isChosen } from '../../fields/sweep_choice';
 import {
     Crop,
     Layers,
     isBelow,
+    lowestTiltDeg,
     sectionOf,
     sectionText,
-    sweepMoment,
     toggledFolded,
     veilsFolded,
 } from '../../scene/layers';
@@ -17,19 +16,18 @@ import { App } from '../app';
 import { button, element, labeled, leaveByEscape, make, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
-import { cutText } from '../layer_maker';
 import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
 import { derivedOf, isMoment } from '../../wire/moments';
 import { layerTexts } from '../later_texts';
 import { texts } from '../texts';
 import { openSettings } from './look';
+import { listenToCuts, putCuts } from './tilts';
 
 const words = layerTexts;
 const usualPlaneM = 3000;
 const planeStepM = 500;
 const usualReflectivity = 45;
-const lowestSweepDeg = 0.5; // the sweep nearest to this elevation is shown first
 const axes = [
     ['westM', 'eastM'],
     ['southM', 'northM'],
@@ -198,7 +196,7 @@ export class LayersPanel {
 
     private sweepParts(): HTMLElement[] {
         const elevation = make('select', { id: 'sweep-elevation' });
-        elevation.addEventListener('change', () => this.chooseCut(Number(elevation.value)));
+        listenToCuts(this.app, this.drawing, elevation);
         const flag = (id: string, text: string, name: 'isSweepDealiased' | 'isSweepWeather') => {
             const box = make('input', { id, type: 'checkbox' });
             box.addEventListener('change', () => this.set({ [name]: box.checked }));
@@ -318,21 +316,12 @@ export class LayersPanel {
     }
 
     private toggleSweep(): void {
-        this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestSweepDeg : null, sweepNumber: null });
+        this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestTiltDeg : null, sweepNumber: null });
     }
     // Shows glyphs together with the sweep that they stand on.
     private toggleGlyphs(): void {
         const { hasGlyphs, sweepDeg } = this.layers;
-        this.set({ hasGlyphs: !hasGlyphs, sweepDeg: hasGlyphs ? sweepDeg : (sweepDeg ?? lowestSweepDeg) });
-    }
-    // Chooses a cut by its elevation, and also by its number if pictures take another cut of this elevation.
-    private chooseCut(number: number): void {
-        const row = this.drawing.layers.sweepRows()?.find((one) => one.sweep === number);
-        if (!row) return;
-        this.set({
-            sweepDeg: Number(row.elevation_deg.toFixed(2)),
-            sweepNumber: isChosen(row, sweepMoment(this.layers, this.app.state.moment)) ? null : number,
-        });
+        this.set({ hasGlyphs: !hasGlyphs, sweepDeg: hasGlyphs ? sweepDeg : (sweepDeg ?? lowestTiltDeg) });
     }
 
     private toggleCrop(): void {
@@ -369,7 +358,7 @@ export class LayersPanel {
         if (layers.planeM !== null) this.putPlane(box, layers.planeM);
         if (layers.section) element<HTMLInputElement>('section-ends').value = sectionText(layers.section);
         if (layers.surface) this.putSurface(layers.surface.value, layers.surface.moment || this.app.state.moment);
-        if (layers.sweepDeg !== null) this.putSweep(layers.sweepDeg);
+        if (layers.sweepDeg !== null) this.putSweep();
         if (layers.crop) this.putCrop(box, layers.crop);
     }
 
@@ -396,29 +385,13 @@ export class LayersPanel {
         element('surface-told').textContent = text;
     }
 
-    private putSweep(elevationDeg: number): void {
-        const { layers } = this.drawing;
-        const rows = layers.sweepRows() ?? [];
+    private putSweep(): void {
         const shown = this.app.shown?.moment ?? '';
-        const cuts = cutsOf(rows, sweepMoment(this.layers, shown));
         const dealiased = element<HTMLInputElement>('sweep-dealiased');
         dealiased.checked = this.layers.isSweepDealiased;
         dealiased.closest('label')!.hidden = derivedOf(shown) === null;
         element<HTMLInputElement>('sweep-weather').checked = this.layers.isSweepWeather;
-        const select = element<HTMLSelectElement>('sweep-elevation');
-        const textOf = (number: string) =>
-            cutText(
-                cuts.find((one) => String(one.sweep) === number)!,
-                rows,
-            );
-        if (cuts.length > 0)
-            putOptions(
-                select,
-                cuts.map((one) => String(one.sweep)),
-                String(layers.shownCut()?.sweep),
-                textOf,
-            );
-        else putOptions(select, [''], '', () => `${elevationDeg.toFixed(1)}°`);
+        putCuts(this.app, this.drawing, element('sweep-elevation'));
     }
 
     private putCrop(box: Crop, crop: Crop): void {

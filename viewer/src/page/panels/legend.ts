@@ -17,7 +17,7 @@ interface Row {
 
 // Returns the rows for the shades of the shown picture.
 function rowsOf({ state, shown, shownTable: table }: App): Row[] {
-    const { layers, hasGround, exaggeration } = state;
+    const { layers, hasGround, exaggeration, isFlat } = state;
     const rows: Row[] = [];
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.legend.aloft, color: shades.seenAloft });
     if (hasGround && !layers.hasHaze) rows.push({ text: texts.notSeen, color: shades.notSeen, lines: shades.hatch });
@@ -35,7 +35,7 @@ function rowsOf({ state, shown, shownTable: table }: App): Row[] {
     if (table && moments.some((one) => isMoment(one) && momentFacts(one).isDerived))
         rows.push({ text: texts.ambiguous, color: shades.seen, lines: table.range_folded });
     if (layers.hasRotation) texts.layers.turning.forEach((text, i) => rows.push({ text, color: shades.turning[i]! }));
-    if (exaggeration !== 1) rows.push({ text: texts.legend.heights(exaggeration), color: null });
+    if (exaggeration !== 1 && !isFlat) rows.push({ text: texts.legend.heights(exaggeration), color: null });
     return rows;
 }
 

@@ -58,6 +58,9 @@ export class ToolsPanel {
             const { current } = this.pointers;
             if (current instanceof MeasureTool) current.draw(pen, geometry);
         });
+        this.app.on('view', () => {
+            if (this.app.state.isFlat && this.pointers.current instanceof FlyTool) this.pointers.use(null);
+        });
         this.app.on('choices', () => this.pointers.current instanceof MeasureTool && this.pointers.use(null));
     }
 
@@ -77,6 +80,7 @@ export class ToolsPanel {
 
     private fly(): void {
         const isUsed = this.pointers.current instanceof FlyTool;
+        this.app.showFlat(false);
         this.use('tool-fly', isUsed, (ended) => new FlyTool(this.app, this.drawing, ended));
         if (!isUsed) this.tell(panelTexts.tools.flyHint);
     }
