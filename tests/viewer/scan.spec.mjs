@@ -19,6 +19,12 @@ for (const [width, height] of [[390, 800], [560, 420], [1000, 700], [1440, 900]]
     await expect(first).toContainText(sweeps[0].start.slice(11, 19));
     await expect(first).toContainText(`${Number(sweeps[0].nyquist_mps.toFixed(1))} m/s`);
     await expect(first).toContainText('REF');
+    // Words for the waveforms, with the abbreviations as tooltips.
+    expect(sweeps[0].waveform, 'the first cut sees far').toBe('CS');
+    await expect(first.locator('td').nth(1)).toHaveText('surveillance');
+    await expect(first.locator('td').nth(1)).toHaveAttribute('title', /\(CS\)/);
+    const words = await scan.locator('tbody td:nth-child(2)').allTextContents();
+    expect(words.every((word) => /^(surveillance|Doppler|Doppler only|batch|staggered)$/.test(word)), words.join()).toBe(true);
     await expect(first, 'only measured moments').not.toContainText('RATE');
     const box = await scan.boundingBox();
     const head = await viewer.byId('head').boundingBox();

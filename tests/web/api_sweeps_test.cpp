@@ -76,8 +76,10 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     // In the table of `stormcellar info`, sweeps 0 and 2 are surveillance, and 1 and 3 the Doppler
     // sweeps of the same cuts.
     std::map<std::string, std::vector<int>> chosen;
+    std::vector<std::string> waveforms;
     const auto list = nlohmann::json::parse(body_of(answer)).at("sweeps");
     for (const auto& sweep : list) {
+        waveforms.push_back(sweep.value("waveform", ""));
         for (const auto& moment : sweep.at("moments")) {
             if (moment.at("chosen").get<bool>())
                 chosen[moment.at("moment")].push_back(sweep.at("sweep"));
@@ -86,6 +88,7 @@ TEST(ApiSweeps, SayWhichOfThemAPictureOfEachMomentShows) {
     EXPECT_EQ(chosen["REF"], (std::vector<int>{0, 2, 4, 5, 6}));
     EXPECT_EQ(chosen["VEL"], (std::vector<int>{1, 3, 4, 5, 6}));
     EXPECT_EQ(chosen["ZDR"], (std::vector<int>{0, 2, 4, 5, 6}));
+    EXPECT_EQ(waveforms, (std::vector<std::string>{"CS", "CD/W", "CS", "CD/W", "B", "B", "B"}));
 }
 
 TEST(ApiSweeps, GatesOfADerivedMomentComeOrAReasonDoes) {

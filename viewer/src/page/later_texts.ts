@@ -61,7 +61,18 @@ export const panelTexts = {
         ended: (cuts: number, highest: string) => `the file ends after ${cuts} cuts, up to ${highest}°`,
         inProgress: (cuts: number, usual: number | null, highest: string) =>
             `scan in progress: ${cuts}${usual === null ? '' : ` of ${usual}`} cuts, up to ${highest}°`,
-        head: ['Tilt', '', 'UTC', 'Nyquist', 'Moments'],
+        head: ['Tilt', 'Waveform', 'UTC', 'Nyquist', 'Moments'],
+        // Waveforms by their abbreviations in the ICD, and what they mean.
+        waveforms: {
+            CS: ['surveillance', 'Contiguous surveillance (CS): slow pulses, which see far but measure no velocity'],
+            'CD/W': [
+                'Doppler',
+                'Contiguous Doppler (CD/W): fast pulses, which measure velocity; the surveillance cut tells the range',
+            ],
+            'CD/WO': ['Doppler only', 'Contiguous Doppler (CD/WO): fast pulses, without a surveillance cut'],
+            B: ['batch', 'Batch (B): slow and fast pulses in turn, which see far and measure velocity'],
+            SPP: ['staggered', 'Staggered pulse pairs (SPP): pulses at two rates in turn'],
+        },
         none: 'The server does not have the cuts of this volume.',
         several: 'Several radars are merged here. Choose one of them to see its cuts.',
         between: 'This frame is interpolated. It is no scan.',

@@ -21,6 +21,13 @@ test('a row of the list has angle, kind, time, Nyquist velocity and measured mom
     assert.deepEqual(cutCells(rows[0]!, rows, speed), ['0.5°', 'long range', '15:00:00', '8.5 m/s', 'REF']);
     assert.deepEqual(cutCells(rows[1]!, rows, speed), ['0.5°', 'Doppler', '15:01:00', '8.5 m/s', 'REF VEL']);
     assert.deepEqual(cutCells(rows[2]!, rows, speed), ['3.1°', '', '15:02:00', '8.5 m/s', 'REF VEL']);
+    // The pattern tells more than the moments.
+    for (const [waveform, word] of [
+        ['CS', 'surveillance'],
+        ['B', 'batch'],
+        ['?', ''],
+    ] as const)
+        assert.equal(cutCells({ ...rows[2]!, waveform }, rows, speed)[1], word);
     assert.deepEqual(cutCells({ sweep: 3, elevation_deg: 4, moments: [] }, rows, speed), ['4.0°', '', '', '', '']);
 });
 

@@ -8,16 +8,24 @@ import { texts } from './texts';
 
 const risingS = 600; // a scan without a new cut for this time has ended
 
-// Returns the cells of a cut's row: angle, kind, time, Nyquist velocity and measured moments. `speedText` adds a unit
-// to m/s.
-export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: number) => string): string[] {
+// Returns the name of a cut's waveform, and what it means. Without a known waveform, the name is the purpose of a half
+// of a split cut.
+export function waveformOf(row: SweepRow, rows: SweepRow[]): readonly [string, string] {
+    const known = Object.entries(panelTexts.scan.waveforms).find(([name]) => name === row.waveform);
+    if (known) return known[1];
     const kind = kindOf(row, rows);
+    return [kind === '' ? '' : texts.layers.kinds[kind], ''];
+}
+
+// Returns the cells of a cut's row: angle, waveform, time, Nyquist velocity and measured moments. `speedText` adds a
+// unit to m/s.
+export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: number) => string): string[] {
     const measured = row.moments
         .map(({ moment }) => moment)
         .filter((one) => !isMoment(one) || !momentFacts(one).isDerived);
     return [
         `${row.elevation_deg.toFixed(1)}°`,
-        kind === '' ? '' : texts.layers.kinds[kind],
+        waveformOf(row, rows)[0],
         row.start?.slice(11, 19) ?? '',
         row.nyquist_mps === undefined ? '' : speedText(row.nyquist_mps),
         measured.join(' '),

@@ -274,6 +274,7 @@ export interface SweepRow {
     start?: string;
     end?: string;
     nyquist_mps?: number;
+    waveform?: string; // abbreviation, as "CS"; left out if the volume does not tell its pattern
     moments: { moment: string; chosen?: boolean }[]; // chosen: `stormcellar frame` draws this cut of its elevation
 }
 export interface VolumeRow {

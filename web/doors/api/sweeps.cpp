@@ -138,8 +138,19 @@ std::set<std::pair<level2::Moment, std::size_t>> chosen_sweeps(const level2::Vol
     return chosen;
 }
 
-ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
+// Returns the ICD's abbreviation of the waveform by which a sweep was measured; empty if the volume
+// does not tell its pattern.
+std::string_view waveform_of(const level2::Volume& volume, const level2::Sweep& sweep) {
+    constexpr std::array<std::string_view, 6> names{"", "CS", "CD/W", "CD/WO", "B", "SPP"};
+    const auto cut = static_cast<std::size_t>(sweep.elevation_number) - 1;
+    if (sweep.elevation_number < 1 || !volume.vcp_message) return {};
+    const auto& cuts = volume.vcp_message->cuts;
+    return cut < cuts.size() && cuts[cut].waveform < names.size() ? names[cuts[cut].waveform] : "";
+}
+
+ApiJson sweep_json(const level2::Volume& volume, std::size_t number,
                    const std::set<std::pair<level2::Moment, std::size_t>>& chosen) {
+    const level2::Sweep& sweep = volume.sweeps[number];
     ApiJson moments = ApiJson::array();
     for (const level2::SweepMoment& gates : sweep.moments) {
         const auto add = [&](level2::Moment moment, int bits) {
@@ -161,6 +172,8 @@ ApiJson sweep_json(const level2::Sweep& sweep, std::size_t number,
                  {"elevation_deg", sweep.mean_elevation_deg()},
                  {"radials", sweep.radials.size()},
                  {"moments", moments}};
+    if (const auto waveform = waveform_of(volume, sweep); !waveform.empty())
+        json["waveform"] = waveform;
     if (!sweep.radials.empty()) {
         json["start"] = format_utc(sweep.radials.front().time);
         json["end"] = format_utc(sweep.radials.back().time);
@@ -190,7 +203,7 @@ Answer api_sweeps(const ApiCall& call) {
     const auto chosen = chosen_sweeps(**volume, found->entry.station);
     ApiJson list = ApiJson::array();
     for (std::size_t i = 0; i < (*volume)->sweeps.size(); ++i)
-        list.push_back(sweep_json((*volume)->sweeps[i], i, chosen));
+        list.push_back(sweep_json(**volume, i, chosen));
     const auto start = (*volume)->start_time();
     return json_answer(call.request, {{"station", found->entry.station},
                                       {"time", start ? ApiJson(format_utc(*start)) : ApiJson()},

@@ -7,7 +7,7 @@ import { element, leaveByEscape, make, paragraph } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { panelTexts } from '../later_texts';
-import { cutCells, progressOf } from '../scan';
+import { cutCells, progressOf, waveformOf } from '../scan';
 import { openSettings } from './look';
 
 const words = panelTexts.scan;
@@ -74,7 +74,9 @@ export class ScanPanel {
         const { units } = this.app.state;
         const body = rows.map((row) => {
             const cells = cutCells(row, rows, (mps) => valueText(mps, 'm/s', units, 1));
-            return make('tr', {}, ...cells.map((cell) => make('td', {}, cell)));
+            const line = make('tr', {}, ...cells.map((cell) => make('td', {}, cell)));
+            line.cells[1]!.title = waveformOf(row, rows)[1];
+            return line;
         });
         this.box.append(make('table', {}, make('thead', {}, head), make('tbody', {}, ...body)));
     }
