@@ -133,6 +133,26 @@ test('page and saved picture tell scale, station, Nyquist velocity and radar sta
   await expect(viewer.byId('station-told')).toBeHidden();
 });
 
+// 2026-11-30: low windows did not tell that heights were exaggerated.
+test('page and saved picture tell how much heights are exaggerated', async ({ page, viewer, server: { station } }) => {
+  await viewer.open(view(station, '64 slices').replace('exaggeration=3', 'exaggeration=2.5'));
+  const told = viewer.byId('legend').getByText('heights × 2.5');
+  for (const [width, height] of [[796, 532], [700, 360], [640, 360], [360, 640]]) {
+    await viewer.resize(width, height);
+    await expect(told, `at ${width} x ${height}`).toBeVisible();
+    const [{ x, y, ...size }, foot] = await Promise.all([told.boundingBox(), viewer.byId('foot').boundingBox()]);
+    expect([x + size.width <= width, y + size.height <= foot.y], `in its place at ${width} x ${height}`).toEqual([true, true]);
+    await viewer.keep(`heights-${width}`);
+  }
+  await viewer.catchLinks();
+  await catchTexts(page);
+  await viewer.takenBy('save');
+  expect(await textsOn(page, '')).toContain('heights\u00a0×\u00a02.5');
+  await viewer.give('exaggeration', 1, 'input');
+  await viewer.drawn();
+  await expect(viewer.byId('legend')).not.toContainText('heights');
+});
+
 // 2026-11-28: the button of the next moment was highlighted while the old picture was still shown.
 test('the button of the drawn moment is highlighted', async ({ page, viewer, server: { station } }) => {
   await viewer.open(view(station, '64 slices'));

@@ -51,7 +51,9 @@ export function addLegend(app: App): void {
     const box = element('legend');
     box.setAttribute('aria-label', texts.legend.name);
     const put = () => {
-        box.replaceChildren(...rowsOf(app).map(item));
+        const rows = rowsOf(app);
+        box.replaceChildren(...rows.map(item));
+        box.classList.toggle('exaggerated', rows.some(({ color }) => !color));
         box.hidden = !app.shown;
     };
     app.on(['view', 'shown'], put);
