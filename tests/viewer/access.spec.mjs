@@ -9,7 +9,9 @@ const panels = [
   ['open', 'settings'],
   ['layers-open', 'layers'],
   ['edit-colors', 'editor'],
+  ['scan-open', 'scan'],
 ];
+const derived = ['derived', 'derived-list']; // opens over other panels, and closes at the next press
 // Sizes of windows, and the least size of texts in each, in pixels.
 const sizes = [[360, 640, 13], [800, 600, 13], [1920, 1080, 14], [3840, 2160, 24]];
 
@@ -36,7 +38,10 @@ async function open(viewer, [opener, panel]) {
   // Open the settings first, which have the button of the editor.
   if (panel === 'editor' && !(await isShown('settings'))) await open(viewer, panels[0]);
   await viewer.press(opener);
+  if (panel === 'scan') await expect(viewer.byId('scan').locator('tbody tr').first()).toBeVisible();
   await viewer.until((id) => document.getElementById(id)?.checkVisibility(), panel);
+  if (panel === derived[1]) return;
+  await viewer.byId(derived[1]).evaluate((list) => (list.hidden = true));
   for (const [, other] of panels) if (other !== panel) expect(await isShown(other), `${panel} is open alone, without ${other}`).toBe(false);
 }
 
@@ -113,7 +118,7 @@ function misplaced() {
 const expectInPlace = (viewer, what) => expect.poll(() => viewer.page.evaluate(misplaced), `${what}: what is not in its place`).toEqual([]);
 
 test('each control has a name, and texts have contrast', async ({ near: viewer }) => {
-  for (const panel of panels) {
+  for (const panel of [...panels, derived]) {
     await open(viewer, panel);
     expect(await expectNames(viewer), `controls with ${panel[1]}`).toBeGreaterThan(12);
     await expectContrast(viewer);
@@ -125,7 +130,7 @@ test('everything is in its place in small and large windows', async ({ near: vie
   await viewer.turnTo(viewer.page.url().split('#')[1].replace(/zoom=[^&]*/, 'zoom=0.01&ground=0'));
   for (const [width, height, least] of sizes) {
     await viewer.resize(width, height);
-    for (const panel of panels) {
+    for (const panel of [...panels, derived]) {
       await open(viewer, panel);
       await expectInPlace(viewer, `${width} x ${height} with ${panel[1]}`);
       await viewer.keep(`access-${width}-${panel[1]}`);

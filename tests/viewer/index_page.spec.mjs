@@ -91,7 +91,7 @@ test.describe('without scripts', () => {
   test('the page links to the lists and has examples', async ({ page, live }) => {
     await page.goto(`${live.address}/`);
     await expect(page.getByRole('link', { name: 'for stations' })).toHaveAttribute('href', '/api/v1/stations');
-    await page.getByText('GR2Analyst').click();
+    await page.getByText('GR2Analyst, GRLevel2').click();
     await expect(page.getByText(`${live.address}/nexrd2`)).toBeVisible();
   });
 });
@@ -123,9 +123,15 @@ test('a row has the ages of a station\'s data, and how long it is silent', async
   await expect(page.locator('code', { hasText: 'siphon' })).toContainText("stations('KTLX').time(datetime(2026, 5, 1, 11, 58))");
 });
 
+test('old data have a date instead of an age', async ({ page, live }) => {
+  await open(page, live, { stations: listOf(station('KAAA', { newest_volume: ago(1096 * 86400) }), station('KBBB', { newest_volume: ago(3 * 86400) })) });
+  await expect(page.locator('td.volume')).toHaveText(['2026-05-01 11:58:00', '2026-05-01 11:58:00']);
+  await expect(page.locator('.lead')).toHaveText('2 stations; the newest volume is of 2026-05-01.');
+});
+
 test('ages are written in fitting units', async ({ page, live }) => {
   const day = 86400;
-  const ages = { 0: '0 s', 89: '89 s', 90: '1 min', 5399: '89 min', 19259: '5 h 20 min', [2 * day]: '2 days', [1096 * day]: '3 years' };
+  const ages = { 0: '0 s', 89: '89 s', 90: '1 min', 5399: '89 min', 19259: '5 h 20 min', [2 * day - 1]: '47 h 59 min' };
   const stations = Object.keys(ages).map((age, i) => station(`KAA${i}`, { newest_volume: ago(Number(age)) }));
   await open(page, live, { stations: listOf(...stations) });
   await expect(page.locator('td.volume b')).toHaveText(Object.values(ages));

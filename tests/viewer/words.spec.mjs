@@ -10,6 +10,8 @@ const words = [
   ['settings', /Exactness|as time allows|Heights times|Hide echo|In between|Grids take|Raw volume\b|Grid \(netCDF\)|smooth-reflectivity/],
   ['settings', /Quality/],
   ['settings', /automatic/],
+  ['settings', /finest: 512 slices \(color error [\d.]+\)/],
+  ['settings', /fast: 64 slices \(/],
   ['settings', /Vertical exaggeration/],
   ['settings', /Smooth motion/],
   ['settings', /Hide below/],
@@ -118,4 +120,6 @@ test('the map of radars uses plain words', async ({ viewer, server: { station } 
   await expect(viewer.byId('found')).toContainText(/\d{4}-\d\d-\d\d \d\d:\d\d UTC/);
   await viewer.byId('search').fill('Xyzzyville');
   await expect(viewer.byId('found')).toHaveText('No radar or city of that name.');
+  await viewer.byId('search').fill('pacg');
+  await expect(viewer.byId('found')).toHaveText('PACG (Biorka Island) is a radar, but has no data here.');
 });

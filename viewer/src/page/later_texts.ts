@@ -192,7 +192,7 @@ export const panelTexts = {
     units: { all: 'Units', speed: 'Speeds', distance: 'Distances', height: 'Heights' },
     quality: 'Quality',
     asTimeAllows: 'automatic',
-    rung: (name: string, dE: number) => `${name} (color error ${dE})`,
+    rung: (name: string, dE: number) => `${dE < 5 ? 'finest' : dE < 10 ? 'fine' : 'fast'}: ${name} (color error ${dE})`,
     hover: {
         value: (value: string, height: string) => `${value} at ${height}`,
         beam: (elevation: string, width: string, range: string, azimuthDeg: number, icao: string) =>
@@ -289,6 +289,7 @@ export const mapTexts = {
         `The echo of ${count === 1 ? '1 more radar' : `${count} more radars`} is not drawn here.`,
     lacksEcho: 'Some of the echo is not loaded yet.',
     noneFound: 'No radar or city of that name.',
+    noDataOfKnown: (icao: string, name: string) => `${icao} (${name}) is a radar, but has no data here.`,
     noGridsOf: (domain: string) => `No data for ${domain}. Choose another radar.`,
     from: (km: number, city: string) => `${km} km from ${city}`,
     boxed: (sites: string[]) =>

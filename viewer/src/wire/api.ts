@@ -169,6 +169,11 @@ export async function silences(): Promise<{
     ]);
     return { silent, names, serverMs: timeOf(answer) };
 }
+// Returns the name of a station that the server knows, even without data of it; null if it does not know the station.
+export async function nameOfKnown(icao: string): Promise<string | null> {
+    const { stations } = await told<{ stations: Station[] }>(`api/v1/stations?known=1&station=${icao}`);
+    return stations[0]?.name ?? null;
+}
 export function gridFacts(domain: string, moment: string, time: string): Promise<GridFacts> {
     return told(gridPath(domain, moment, time));
 }

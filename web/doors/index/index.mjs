@@ -15,6 +15,9 @@ async function asked(name) {
     return answer.json();
 }
 
+// A date tells older data better than an age.
+const isOld = (seconds) => seconds >= 2 * day;
+
 // Returns "42 s", "3 min", "5 h 20 min", "12 days", "3 years".
 function ageText(seconds) {
     if (seconds < -minute) return 'in the future';
@@ -35,11 +38,12 @@ function element(name, text, properties = {}) {
     return Object.assign(document.createElement(name), { textContent: text }, properties);
 }
 
-// Puts the age and the time of the newest data into a cell, or the text `none` if `newest` is missing.
+// Puts the age and the time of the newest data into a cell, or the text `none` if `newest` is missing. Old data have a
+// time only.
 function showAge(cell, newest, none = 'none') {
     if (newest) {
         const time = element('time', readable(newest.time), { dateTime: newest.time });
-        cell.append(element('b', ageText(newest.age_s)), ' ', time);
+        cell.append(...(isOld(newest.age_s) ? [] : [element('b', ageText(newest.age_s)), ' ']), time);
     } else {
         cell.append(element('span', none, { className: 'none' }));
     }
@@ -101,9 +105,10 @@ function summary(stations) {
     const silent = stations.filter(isSilent).length;
     if (silent > 0) parts.push(`, ${silent} of them silent`);
     const ages = stations.flatMap((one) => [one.newest_volume, one.newest_grid]).filter(Boolean);
-    const youngest = Math.min(...ages.map((one) => one.age_s));
-    if (youngest < -minute) parts.push('; the newest volume has a time in the future');
-    else if (ages.length > 0) parts.push(`; the newest volume began ${ageText(youngest)} ago`);
+    const newest = ages.reduce((best, one) => (best === null || one.age_s < best.age_s ? one : best), null);
+    if (newest?.age_s < -minute) parts.push('; the newest volume has a time in the future');
+    else if (newest && isOld(newest.age_s)) parts.push(`; the newest volume is of ${newest.time.slice(0, 10)}`);
+    else if (newest) parts.push(`; the newest volume began ${ageText(newest.age_s)} ago`);
     return `${parts.join('')}.`;
 }
 

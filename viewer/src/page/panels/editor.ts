@@ -29,6 +29,7 @@ const words = editorTexts;
 const otherPanels = [
     { id: 'settings', opener: 'open' },
     { id: 'layers', opener: 'layers-open' },
+    { id: 'scan', opener: 'scan-open' },
 ];
 
 export class Editor {

@@ -1,6 +1,7 @@
 // Shows the list beside the start map: domains, and the stations that a search finds.
 
 import { Found, StationPlace } from '../../map/places';
+import { nameOfKnown } from '../../wire/api';
 import { element, make } from '../dom';
 import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
@@ -48,8 +49,17 @@ export class PlaceList {
         const focused =
             document.activeElement instanceof HTMLElement ? document.activeElement.dataset['domain'] : undefined;
         this.list.replaceChildren(...places.map((place) => this.row(place)));
-        if (places.length === 0) this.list.append(make('li', {}, mapTexts.noneFound));
+        if (places.length === 0) void this.tellNone(this.field.value.trim().toUpperCase());
         this.buttons.find((one) => one.dataset['domain'] === focused)?.focus();
+    }
+
+    // Tells that nothing was found, and whether the word is the name of a radar without data.
+    private async tellNone(word: string): Promise<void> {
+        const line = make('li', {}, mapTexts.noneFound);
+        this.list.append(line);
+        if (!/^[A-Z][A-Z0-9]{3}$/.test(word)) return;
+        const name = await nameOfKnown(word).catch(() => null);
+        if (name !== null) line.textContent = mapTexts.noDataOfKnown(word, name);
     }
 
     mark(domain: string | null): void {
