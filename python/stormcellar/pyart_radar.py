@@ -43,7 +43,7 @@ def to_pyart(volume: Volume) -> pyart.core.Radar:
     start = rays["time"].min()
     time = described("time", (rays["time"] - start) / np.timedelta64(1, "s"))
     time["units"] = f"seconds since {start.astype('datetime64[s]')}Z"
-    if (start - start.astype("datetime64[s]")) != np.timedelta64(0):
+    if (start - start.astype("datetime64[s]")) != np.timedelta64(0, "ms"):
         time["data"] = time["data"] + (start - start.astype("datetime64[s]")) / np.timedelta64(1, "s")
     axis = described("range", ranges.astype("f4"))
     axis |= {"meters_to_center_of_first_gate": float(first), "meters_between_gates": float(step)}

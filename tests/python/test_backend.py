@@ -31,6 +31,12 @@ class Engine(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "sweep_99"):
             self.xarray.open_dataset(BUSY, engine=self.engine, group="sweep_99")
 
+    def test_xarray_finds_the_installed_engine(self):
+        if "stormcellar" not in self.xarray.backends.list_engines():
+            self.skipTest("the package is not installed")
+        self.assertIn("DBZH", self.xarray.open_dataset(BUSY, engine="stormcellar", group="sweep_0"))
+        self.assertIn("DBZH", self.xarray.open_dataset(BUSY))  # by its name
+
     def test_trees(self):
         if not hasattr(self.xarray, "DataTree"):
             self.skipTest("this xarray has no trees")

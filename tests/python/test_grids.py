@@ -1,6 +1,7 @@
 """Grids real volumes in Python, and compares them with the file of the command line."""
 
 import gc
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -32,6 +33,7 @@ class Grids(unittest.TestCase):
         self.assertEqual(grid.time, np.datetime64("1999-05-03T23:56:21"))
 
     @unittest.skipUnless(PROGRAM, "no command line: set STORMCELLAR_PROGRAM")
+    @unittest.skipUnless(importlib.util.find_spec("netCDF4"), "netCDF4 is not installed")
     def test_the_command_line_makes_the_same_cells(self):
         import netCDF4
 

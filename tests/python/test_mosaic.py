@@ -1,5 +1,6 @@
 """Merges real volumes in Python, and compares the mosaic with the file of the command line."""
 
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -20,6 +21,7 @@ class Mosaics(unittest.TestCase):
     files = sorted((pathlib.Path(DATA or "") / "mosaic-northeast").glob("K[BE]*"))
 
     @unittest.skipUnless(PROGRAM, "no command line: set STORMCELLAR_PROGRAM")
+    @unittest.skipUnless(importlib.util.find_spec("netCDF4"), "netCDF4 is not installed")
     def test_the_command_line_makes_the_same_cells(self):
         import netCDF4
 

@@ -38,7 +38,7 @@ class Trees(unittest.TestCase):
 
     def test_rays_can_stay_in_their_order(self):
         sweep = stormcellar.open_volume(real(BUSY), sort=False)["/sweep_0"]
-        self.assertTrue((np.diff(sweep["time"].values) >= np.timedelta64(0)).all())
+        self.assertTrue((np.diff(sweep["time"].values) >= np.timedelta64(0, "ns")).all())
         self.assertFalse((np.diff(sweep["azimuth"]) >= 0).all())
 
     def test_packed_codes_decode_to_the_values(self):
