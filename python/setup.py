@@ -93,7 +93,9 @@ def copy_licenses(files, folder):
         return
     for file in {path.resolve() for path in files}:
         found = subprocess.run(["dpkg", "-S", f"*/{file.name}"], stdout=subprocess.PIPE, text=True).stdout
-        for package in {line.split(":")[0] for line in found.splitlines()}:
+        owned = [line.split(": ", 1) for line in found.splitlines() if ": /" in line]
+        # Packages may name /lib where the file is in /usr/lib.
+        for package in {owner.split(":")[0] for owner, path in owned if str(file).endswith(path)}:
             terms = pathlib.Path("/usr/share/doc") / package / "copyright"
             if terms.is_file():
                 shutil.copyfile(terms, folder / f"{package}.copyright")
@@ -113,6 +115,7 @@ def glibc_minor(libraries):
 
 class Build(build_py):
     def run(self):
+        shutil.rmtree(self.build_lib, ignore_errors=True)  # else removed modules stay in the wheel
         super().run()
         package = pathlib.Path(self.build_lib) / "stormcellar"
         carry_fonts(package)
