@@ -4,17 +4,15 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
 
 import { test as base, expect } from '@playwright/test';
 
-import { startServer } from './server.mjs';
+import { root, startServer } from './server.mjs';
 import { Slicer, mostDifference } from './slicer.mjs';
 import { ViewerPage, gridsOf } from './viewer_page.mjs';
 
 export { expect };
 
-const root = fileURLToPath(new URL('../..', import.meta.url));
 const build = resolve(root, process.env.STORMCELLAR_BUILD || 'build/release');
 export const program = join(build, 'cli/stormcellar');
 export const daemon = join(build, 'daemon/stormcellard');

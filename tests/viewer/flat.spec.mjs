@@ -1,5 +1,11 @@
 // Checks 2D, the map of one tilt: how the user comes to it and back, that it never turns, and the choice of a tilt.
-import { expect, test as base } from './fixtures.mjs';
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+import { expect, program, test as base } from './fixtures.mjs';
+import { data, startServer } from './server.mjs';
+import { gridsOf } from './viewer_page.mjs';
 
 const isOf = (row, moment) => row.moments.some((one) => one.moment === moment);
 
@@ -134,3 +140,56 @@ for (const [width, height] of [[390, 844], [560, 420], [1000, 700], [1440, 900]]
     }
     await viewer.keep(`flat-${width}`);
   });
+
+// Two volumes of KLOT that came in chunks. The first one repeats its low cuts (MRLE).
+const chunks = ['L2D_230', 'OPENRADAR_KLOT'].map((name) => join(data, 'chunks', name));
+const repeated = test.extend({
+  address: async ({}, use, info) => {
+    info.skip(!chunks.every((folder) => existsSync(folder)), 'the chunks are not here');
+    const directory = mkdtempSync(join(tmpdir(), 'stormcellar-repeats-'));
+    const files = chunks.map((folder) => {
+      const names = readdirSync(folder).sort();
+      const file = join(directory, `KLOT${names[0].slice(0, 15).replace('-', '_')}_V06`);
+      writeFileSync(file, Buffer.concat(names.map((name) => readFileSync(join(folder, name)))));
+      return file;
+    });
+    const { address, stop } = await startServer(program, files);
+    const times = async () => (await gridsOf(address, ['KLOT'])).filter(({ moment }) => moment === 'REF').length;
+    await expect.poll(times, 'volumes').toBe(2);
+    await use(address);
+    await stop();
+    rmSync(directory, { recursive: true, force: true });
+  },
+});
+
+repeated('a loop shows repeated cuts in order of time', async ({ viewer }) => {
+  const told = async () => (await viewer.text('layers-told')).match(/\d\d:\d\d:\d\d/)[0];
+  await viewer.open('domain=KLOT&moment=REF&view=2d&zoom=0.5');
+  await viewer.until(() => document.getElementById('times').max === '1');
+  const newest = await told();
+  const back = [];
+  for (let i = 0; i < 2; ++i) {
+    await viewer.settled(() => viewer.key('ArrowLeft'));
+    back.push(await told());
+  }
+  expect(back, 'the last repeat comes first on the way back').toEqual(['12:41:39', '12:38:48']);
+  const link = await viewer.page.evaluate(() => location.hash.slice(1));
+  await viewer.settled(() => viewer.key('ArrowRight'));
+  expect(await told()).toBe(back[0]);
+  await viewer.settled(() => viewer.key('ArrowRight'));
+  expect(await told()).toBe(newest);
+  await viewer.show(link);
+  expect(await told(), 'a link shows the repeat').toBe(back[1]);
+  await viewer.page.evaluate(() => {
+    window.seen = [];
+    const look = () => {
+      const [time] = document.getElementById('layers-told').textContent.match(/\d\d:\d\d:\d\d/) ?? [];
+      if (time !== window.seen.at(-1)) window.seen.push(time);
+      requestAnimationFrame(look);
+    };
+    look();
+  });
+  await viewer.press('play');
+  const seen = await viewer.until(() => window.seen.length >= 7 && window.seen.slice(0, 7));
+  expect(seen).toEqual([back[1], back[0], newest, back[1], back[0], newest, back[1]]);
+});

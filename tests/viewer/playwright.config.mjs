@@ -1,14 +1,12 @@
 // Names the browsers and volumes with which Playwright checks the viewer (scripts/check-viewer).
 import { existsSync, readdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { fileURLToPath } from 'node:url';
 
 import { defineConfig } from '@playwright/test';
 
+import { data, root } from './server.mjs';
 import { chromiumOptions } from './viewer_page.mjs';
 
-const root = fileURLToPath(new URL('../..', import.meta.url));
-const data = resolve(root, process.env.STORMCELLAR_DATA || '../shared/data');
 const volume = (name) => join(data, 'volumes', name);
 // Returns the volumes of a station in a folder. Without any, returns a path that does not exist, so that checks are
 // skipped.

@@ -1,6 +1,12 @@
 // Starts `stormcellar serve` for checks. Errors: an Error with the output of the server.
 import { spawn } from 'node:child_process';
+import { resolve } from 'node:path';
 import { createInterface } from 'node:readline';
+import { fileURLToPath } from 'node:url';
+
+// Root of the tree, and the directory of real data.
+export const root = fileURLToPath(new URL('../..', import.meta.url));
+export const data = resolve(root, process.env.STORMCELLAR_DATA || '../shared/data');
 
 // Starts a program, which ends with this process.
 export function startBeside(program, words) {

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { cutOf, kindOf, nearestSite, nextTilt, tiltsOf } from './sweep_choice';
+import { cutOf, kindOf, nearestSite, nextTilt, repeatsOf, tiltsOf } from './sweep_choice';
 import { azimuthSteps, beamAt, coneOf, noRadial, radialsByAzimuth } from './sweep_cone';
 import { planeOf } from '../earth/projection';
 import { PackedError } from '../wire/packed_grid';
@@ -115,6 +115,17 @@ test('a split cut shows the half that pictures take, and either half can be chos
         tiltsOf(rows, 'REF').map((tilt) => tilt.map((one) => one.sweep)),
         [[0, 1, 4, 5], [2, 3], [6]],
     );
+    const repeats = (moment: string, number: number) => repeatsOf(rows, moment, rows[number]!).map((one) => one.sweep);
+    assert.deepEqual(
+        [repeats('REF', 4), repeats('REF', 1), repeats('VEL', 5)],
+        [
+            [0, 4],
+            [1, 5],
+            [1, 5],
+        ],
+    );
+    assert.deepEqual([repeats('ZDR', 6), repeats('VEL', 0)], [[6], []]);
+    assert.deepEqual([cutOf(rows, 'REF', 0.5, 'first')?.sweep, cutOf(rows, 'VEL', 0.5, 'first')?.sweep], [0, 1]);
     const next = (moment: string, number: number, by: 1 | -1) => nextTilt(rows, moment, rows[number]!, by)?.sweep;
     assert.deepEqual([next('REF', 4, 1), next('REF', 2, 1), next('REF', 6, 1)], [2, 6, undefined]);
     assert.deepEqual([next('REF', 6, -1), next('REF', 3, -1), next('REF', 0, -1)], [2, 4, undefined]);

@@ -25,19 +25,30 @@ export function tiltsOf(rows: SweepRow[], moment: string): SweepRow[][] {
 export const isChosen = (row: SweepRow, moment: string): boolean =>
     row.moments.some((one) => one.moment === moment && one.chosen === true);
 
+// Number of a cut in its volume. 'first' is the first repeat of the cut that pictures take; null is the cut itself.
+export type CutNumber = number | 'first' | null;
+
+// Returns the cuts of the tilt of `row` that measure as it does, in order of time. SAILS and MRLE repeat low cuts.
+export function repeatsOf(rows: SweepRow[], moment: string, { sweep, moments }: SweepRow): SweepRow[] {
+    const isDoppler = (of: SweepRow['moments']) => of.some((one) => one.moment === 'VEL');
+    const tilt = tiltsOf(rows, moment).find((one) => one.some((row) => row.sweep === sweep)) ?? [];
+    return tilt.filter((row) => isDoppler(row.moments) === isDoppler(moments));
+}
+
 // Returns the cut to show; null if no cut has the moment. This is the cut `number` if it is at the elevation and has
 // the moment. Otherwise it is the cut nearest to the elevation among the cuts that pictures take, or among all cuts if
 // pictures take none.
-export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: number | null): SweepRow | null {
+export function cutOf(rows: SweepRow[], moment: string, elevationDeg: number, number: CutNumber): SweepRow | null {
     const having = rows.filter((row) => has(row, moment));
     const named = having.find((row) => row.sweep === number && isSameElevation(row.elevation_deg, elevationDeg));
     if (named) return named;
     const chosen = having.filter((row) => isChosen(row, moment));
     const off = (row: SweepRow) => Math.abs(row.elevation_deg - elevationDeg);
-    return (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>(
+    const best = (chosen.length > 0 ? chosen : having).reduce<SweepRow | null>(
         (best, row) => (best === null || off(row) < off(best) ? row : best),
         null,
     );
+    return number === 'first' && best ? (repeatsOf(rows, moment, best)[0] ?? null) : best;
 }
 
 // Returns the cut of the next higher tilt (`by` is 1) or lower tilt (-1) that pictures take; null if there is none.

@@ -5,6 +5,7 @@
 import { namedView } from '../camera/controls';
 import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../atlas/loaded_grid';
+import { CutNumber } from '../fields/sweep_choice';
 import { Stance, elsewhere, switched } from '../scene/flat_view';
 import { ViewState, addressOf, usualState } from '../scene/view_state';
 import { ColorTable } from '../wire/color_tables';
@@ -14,6 +15,7 @@ import { Units } from '../tables/units';
 import { ApiError, Domain, domains, isRegion, region, tables } from '../wire/api';
 import { AddressBar, stateOfAddress, timeThatIsNone } from './address_bar';
 import { element } from './dom';
+import type { LayerMaker } from './layer_maker';
 import { Loader } from './loader';
 import { News } from './news';
 import { Playback } from './playback';
@@ -56,6 +58,8 @@ export class App {
     // have come, or null if they are here. The shown picture stays until then.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     isShownWhole: () => boolean = () => true; // returns true if all layers of the picture have come
+    repeats: LayerMaker['repeats'] = () => null;
+    nextCut: CutNumber | undefined = undefined; // number of the sweep in the next picture; undefined: as in this one
     isGraphicsLost = false; // the WebGL context is lost
     readonly server = new ServerState(() => this.tell('notice'));
     missed = ''; // message about what the user asked for and the server does not have
@@ -169,6 +173,7 @@ export class App {
     showFlat(isFlat: boolean): void {
         if (isFlat === this.state.isFlat) return;
         const { camera, layers } = this.state;
+        this.nextCut = undefined;
         this.state = switched(this.state, isFlat, this.otherStance);
         this.otherStance = { camera, layers };
         this.tell('camera');
@@ -290,6 +295,7 @@ export class App {
     // what is missing.
     async choose(domain: string, moment: string): Promise<void> {
         this.miss('');
+        this.nextCut = undefined;
         [this.askedDomain, this.askedMoment] = [domain, moment];
         if (isRegion(domain) && !this.domains.some((one) => one.domain === domain)) {
             const choice = ++this.choices;

@@ -78,6 +78,7 @@ export class Drawing {
         app.loader.besides = () => this.windows.bytes;
         app.alongside = (next, isAhead) => this.layers.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
         app.isShownWhole = () => !this.layers.isWaiting;
+        app.repeats = () => this.layers.repeats();
         app.on('cells', () => this.draw());
         app.on('shown', () => this.show());
         app.on('units', () => {

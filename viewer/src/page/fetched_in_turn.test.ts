@@ -38,6 +38,10 @@ test('the most recently used items are kept, within the limit of bytes', async (
     const store = new FetchedInTurn<string>(10, (value) => value.length);
     for (const key of ['a', 'b']) await store.take(key, async () => 'x'.repeat(4), true);
     assert.equal(store.isSettled('a'), true);
+    assert.deepEqual(
+        [store.search((value) => value === 'xxxx'), store.search((value) => value === 'y')],
+        ['xxxx', null],
+    );
     await store.take('c', async () => 'x'.repeat(4), true);
     assert.deepEqual(
         ['a', 'b', 'c'].map((key) => store.isSettled(key)),

@@ -28,6 +28,11 @@ export class FetchedInTurn<T> {
     find(key: string): T | null {
         return this.known(key)?.value ?? null;
     }
+    // Returns a kept item that passes a test, whatever its key; null if there is none.
+    search(isWanted: (value: T) => boolean): T | null {
+        for (const { value } of this.kept.values()) if (value !== null && isWanted(value)) return value;
+        return null;
+    }
     // Returns true if the item has come or failed.
     isSettled(key: string): boolean {
         const wanted = this.known(key);

@@ -7,7 +7,7 @@ import { fallsOf } from '../fields/falls';
 import { levelsAbout, maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
-import { cutOf, kindOf, nearestSite } from '../fields/sweep_choice';
+import { CutNumber, cutOf, kindOf, nearestSite, repeatsOf } from '../fields/sweep_choice';
 import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
 import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layer_passes';
 import { LoadedGrid } from '../atlas/loaded_grid';
@@ -46,6 +46,8 @@ const againAfterMs = 10_000; // after a sweep, or a grid of another moment, has 
 interface PlacedSweep {
     rows: SweepRow[];
     row: SweepRow;
+    moment: string;
+    quality: number; // least probability of weather
     drawn: DrawnSweep;
 }
 
@@ -315,6 +317,19 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
+    // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted one. In 2D, they are
+    // shown one after another. Returns null in 3D, or if the user has chosen another kind of cut.
+    repeats(): { numbers: CutNumber[]; at: number } | null {
+        const { shown, state } = this.app;
+        const { sweepDeg, sweepNumber } = state.layers;
+        const rows = state.isFlat && state.betweenS === 0 ? this.sweepRows() : null;
+        if (!shown || !rows || sweepDeg === null) return null;
+        const moment = sweepMoment(state.layers, shown.moment);
+        const [usual, wanted] = [null, sweepNumber].map((number) => cutOf(rows, moment, sweepDeg, number));
+        const all = usual ? repeatsOf(rows, moment, usual) : [];
+        const at = all.findIndex((row) => row.sweep === wanted?.sweep);
+        return at < 0 ? null : { numbers: all.map((row) => (row === usual ? null : row.sweep)), at };
+    }
     // Returns a sentence if nothing of the volume is visible. The sentence names the least visible value.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
         const { state, shownTable: table } = this.app;
@@ -414,25 +429,39 @@ export class LayerMaker {
     private sweepKey(shown: Shown): string {
         const { loaded } = shown;
         const { layers } = this.app.state;
-        const { sweepDeg, sweepNumber, isSweepWeather } = layers;
+        const { sweepDeg, isSweepWeather } = layers;
         const moment = sweepMoment(layers, shown.moment);
-        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, sweepNumber, isSweepWeather].join(' ');
+        const number = this.cutNumberOf(shown);
+        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, number, isSweepWeather].join(' ');
+    }
+    private cutNumberOf(shown: Shown): CutNumber {
+        const { nextCut, state } = this.app;
+        return shown === this.app.shown || nextCut === undefined ? state.layers.sweepNumber : nextCut;
     }
     private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
         const { layers } = this.app.state;
-        const { sweepDeg, sweepNumber } = layers;
+        const { sweepDeg } = layers;
         const { loaded } = shown;
+        const number = this.cutNumberOf(shown);
+        const quality = sweepQuality(layers);
         const moment = sweepMoment(layers, shown.moment);
         const station = this.stationOf(shown);
         const fetch = async (): Promise<PlacedSweep> => {
             const { time, rows } = await this.rowsOf(shown, station);
-            const row = sweepDeg !== null && cutOf(rows, moment, sweepDeg, sweepNumber);
+            const row = sweepDeg !== null && cutOf(rows, moment, sweepDeg, number);
             if (!row) throw new ApiError(404, texts.layers.noSweep(station));
-            const bytes = await gates(station, time, row.sweep, moment, sweepQuality(layers));
+            // Another way to name the cut may have fetched the same sweep.
+            const known = this.sweeps.search(
+                (one) => one.row === row && one.moment === moment && one.quality === quality,
+            );
+            if (known) return known;
+            const bytes = await gates(station, time, row.sweep, moment, quality);
             const read = readPackedSweep(new Uint8Array(bytes));
             return {
                 rows,
                 row,
+                moment,
+                quality,
                 drawn: {
                     station,
                     gates: read,

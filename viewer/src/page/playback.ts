@@ -1,6 +1,7 @@
 // Steps and plays through the times, and follows the newest.
 
-import { advanced, at, looped, stepped } from '../time/player';
+import { CutNumber } from '../fields/sweep_choice';
+import { advanced, at, looped, nextOf, stepped } from '../time/player';
 import { App } from './app';
 import { texts } from './texts';
 
@@ -24,18 +25,46 @@ export class Playback {
     goTo(index: number): void {
         const { app } = this;
         app.miss('');
+        app.nextCut = undefined;
         app.player = at(app.player, index);
         void app.showing.showTime();
     }
-    step(by: number): void {
+    step(by: 1 | -1): void {
         const { app } = this;
         app.miss('');
+        if (this.stepWithin(by)) return;
         app.player = stepped(app.player, by);
         void app.showing.showTime(undefined, by);
+    }
+    // Shows the next sweep of the shown tilt in the shown volume, in 2D, and stops playback and following. Returns false
+    // if there is no other sweep.
+    private stepWithin(by: 1 | -1): boolean {
+        const { app } = this;
+        const number = this.nextRepeat(by);
+        if (number === undefined) return false;
+        app.player = { ...app.player, isPlaying: false, follows: false };
+        app.state.time = app.shown?.time ?? app.state.time;
+        app.tell('time');
+        this.showRepeat(number);
+        return true;
+    }
+    // Returns the number of the next sweep of the shown tilt in the shown volume; undefined if there is none. The next
+    // volume then begins with its first one, or with its last one (`by` is -1).
+    private nextRepeat(by: 1 | -1): CutNumber | undefined {
+        const { app } = this;
+        const repeats = app.repeats();
+        app.nextCut = repeats ? (by > 0 ? 'first' : null) : undefined;
+        return repeats?.numbers[repeats.at + by];
+    }
+    private showRepeat(sweepNumber: CutNumber): void {
+        const { app } = this;
+        app.state.layers = { ...app.state.layers, sweepNumber };
+        app.changed();
     }
     follow(): void {
         const { app } = this;
         app.miss('');
+        app.nextCut = app.repeats() ? null : undefined;
         app.timeline.follow();
         void app.showing.showTime();
     }
@@ -43,6 +72,7 @@ export class Playback {
         const { app } = this;
         app.miss('');
         app.player = { ...app.player, isPlaying: !app.player.isPlaying, follows: false };
+        app.nextCut = undefined;
         app.tell('time');
         if (app.player.isPlaying) {
             app.showing.ahead.load();
@@ -53,8 +83,13 @@ export class Playback {
     private tick(): void {
         const { app } = this;
         if (!app.player.isPlaying) return;
+        const isReady = app.showing.coming === 0 && app.isShownWhole();
+        const repeat = isReady ? this.nextRepeat(1) : undefined;
+        if (repeat !== undefined) this.showRepeat(repeat);
+        // A loop of one volume begins again with the first sweep.
+        else if (isReady && app.nextCut === 'first' && nextOf(app.player) === null) this.showRepeat('first');
         const { player, waitsFor } =
-            app.showing.coming === 0 && app.isShownWhole()
+            isReady && repeat === undefined
                 ? advanced(app.player, (time) => app.showing.ahead.has(time))
                 : { player: app.player, waitsFor: null };
         if (app.showing.coming > 0) app.say(texts.waiting(app.timeline.now ?? ''), false);

@@ -151,6 +151,8 @@ export class Showing {
         if (book && isOther)
             book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
         app.shown = shown;
+        if (app.nextCut !== undefined) app.state.layers = { ...app.state.layers, sweepNumber: app.nextCut };
+        app.nextCut = undefined;
         app.unreadTime = '';
         app.state.time = app.player.follows ? 'latest' : shown.time;
         this.ahead.load();

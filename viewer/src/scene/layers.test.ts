@@ -37,6 +37,8 @@ const all: Layers = {
 
 test('the address holds every layer, except usual values', () => {
     assert.deepEqual(stateOf(addressOf({ ...usualState, layers: all })).layers, all);
+    const first: Layers = { ...all, sweepNumber: 'first' };
+    assert.deepEqual(layersOf(new URLSearchParams(layersAddress(first))), first);
     assert.deepEqual(layersAddress(usualLayers), []);
     assert.deepEqual(layersOf(new URLSearchParams('')), usualLayers);
 });
@@ -67,6 +69,7 @@ test('the command leaves out the echo that the sweep lacks, and no other product
         productOf({ ...usualLayers, hasVolume: false, isSweepWeather: true, ...change })!.join(' ');
     assert.equal(command({ sweepDeg: 0.5 }), '--product ppi --elevation 0.5 --quality 0.5');
     assert.equal(command({ sweepDeg: 0.5, isSweepWeather: false }), '--product ppi --elevation 0.5');
+    assert.equal(command({ sweepDeg: 0.5, sweepNumber: 'first' }), '--product ppi --elevation 0.5 --quality 0.5');
     assert.equal(command({ hasMaximum: true }), '--product composite');
 });
 

@@ -1,6 +1,7 @@
 // Holds the layers of a view, and reads and writes them as parts of the address.
 
 import { Place } from '../earth/projection';
+import { CutNumber } from '../fields/sweep_choice';
 import { derivedOf, isMoment, momentFacts } from '../wire/moments';
 
 // Sides of a box. Horizontal sides are in meters from the middle of the grid, bottom and top in meters above sea level.
@@ -25,7 +26,7 @@ export interface Layers {
     surface: Surface | null;
     hasMaximum: boolean; // the maxima of columns are on the ground
     sweepDeg: number | null; // elevation of the sweep that is shown
-    sweepNumber: number | null; // number of the sweep in its volume (see cutOf()); null: the sweep that pictures take
+    sweepNumber: CutNumber; // number of the sweep in its volume (see cutOf())
     isSweepDealiased: boolean; // the sweep has dealiased velocities although the shown moment is the measured velocity
     isSweepWeather: boolean; // the sweep lacks echo that is probably no weather
     hasGlyphs: boolean; // the sweep of a velocity has beam glyphs
@@ -184,7 +185,7 @@ export function layersOf(query: URLSearchParams): Layers {
                 : { value: surface, moment: (query.get('surface-moment') ?? '').toUpperCase().slice(0, 8) },
         hasMaximum: query.get('maximum') === '1',
         sweepDeg: one('elevation', -5, 90),
-        sweepNumber: Number.isInteger(sweep) ? sweep : null,
+        sweepNumber: query.get('sweep') === 'first' ? 'first' : Number.isInteger(sweep) ? sweep : null,
         isSweepDealiased: query.get('dealiased') === '1',
         isSweepWeather: query.get('weather') === '1',
         hasGlyphs: query.get('glyphs') === '1',
@@ -231,9 +232,9 @@ export function productOf(layers: Layers): string[] | null {
     if (layers.planeM !== null) return ['--product', 'cappi', '--height-km', kilometers(layers.planeM)];
     if (layers.sweepDeg !== null) {
         const which =
-            layers.sweepNumber === null
-                ? ['--elevation', rounded(layers.sweepDeg, 2)]
-                : ['--sweep', String(layers.sweepNumber)];
+            typeof layers.sweepNumber === 'number'
+                ? ['--sweep', String(layers.sweepNumber)]
+                : ['--elevation', rounded(layers.sweepDeg, 2)];
         const quality = sweepQuality(layers);
         return ['--product', 'ppi', ...which, ...(quality > 0 ? ['--quality', String(quality)] : [])];
     }
