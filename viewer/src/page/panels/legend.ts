@@ -53,7 +53,10 @@ export function addLegend(app: App): void {
     const put = () => {
         const rows = rowsOf(app);
         box.replaceChildren(...rows.map(item));
-        box.classList.toggle('exaggerated', rows.some(({ color }) => !color));
+        box.classList.toggle(
+            'exaggerated',
+            rows.some(({ color }) => !color),
+        );
         box.hidden = !app.shown;
     };
     app.on(['view', 'shown'], put);
