@@ -1,4 +1,4 @@
-// stormcellar.h -- the C interface of stormcellar: reads the Level II files of weather radars.
+// stormcellar.h -- the C interface of stormcellar: reads, grids and draws weather radar data.
 //
 // Every function that can fail returns a stormcellar_code, STORMCELLAR_OK or the kind of the
 // failure. If `error` is not null, it then has the code and one line for people. A null pointer

@@ -248,6 +248,31 @@ TEST(CVolume, TheExampleInCRuns) {
     EXPECT_NE(refused.err.find("/nothing"), std::string::npos);
 }
 
+TEST(CVolume, TheExampleInRustFindsTheTornado) {
+#ifdef STORMCELLAR_RUSTC
+    STORMCELLAR_NEED_DATA();
+    const TemporaryDirectory directory;
+    const std::string library = std::filesystem::path(STORMCELLAR_SHARED).parent_path();
+    const std::string program = directory / "strongest_rotation";
+    const ProgramResult compiled = run_program(
+        STORMCELLAR_RUSTC, {"--edition", "2021", "-D", "warnings", "-L", library, "-C",
+                            "link-arg=-Wl,-rpath," + library, "-o", program,
+                            source_directory() / "docs/examples/strongest_rotation.rs"});
+    ASSERT_EQ(compiled.status, 0) << compiled.err;
+    const ProgramResult said = run_program(program, {real_file(storm).string()});
+    EXPECT_EQ(said.status, 0) << said.err;
+    EXPECT_NE(said.out.find("KTLX\nelevation 0.5 degrees: shear of 0.04"), std::string::npos)
+        << said.out;
+    EXPECT_NE(said.out.find("at azimuth 257 degrees, range 38 km\n"), std::string::npos)
+        << "the tornado of Bridge Creek and Moore; " << said.out;
+    const ProgramResult refused = run_program(program, {"/nothing"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_NE(refused.err.find("/nothing"), std::string::npos);
+#else
+    GTEST_SKIP() << "no rustc, or built with sanitizers: the example in Rust is not compiled";
+#endif
+}
+
 TEST(CVolume, TheLibraryExportsTheFunctionsOfTheHeaderAlone) {
     const ProgramResult names =
         run_program("/usr/bin/nm", {"-D", "--defined-only", STORMCELLAR_SHARED});
