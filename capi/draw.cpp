@@ -65,7 +65,7 @@ Result<PictureWish> wish_of(const stormcellar_draw_options* options,
     auto scene = render::scene_of(wish.options);
     if (!scene) return pass_on(scene);
     wish.scene = std::move(*scene);
-    if (wish.options.overlay == render::overlay_cells)
+    if (render::marks_cells(wish.options))
         return fail(ErrorCode::unsupported,
                     "storm cells are marked by the program alone: stormcellar frame --overlay "
                     "cells");

@@ -25,7 +25,7 @@
 #include "cli/shared/interrupt.h"
 #include "cli/shared/output_file.h"
 #include "cli/shared/progress.h"
-#include "render/frame/cell_overlay_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/picture_options.h"
 #include "stormcellar/cache/grid_file.h"
@@ -40,8 +40,10 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& s
     Progress progress("frames", frames.size(), !options.quiet);
     const auto cameras = cameras_of(options, shown, grids.frames_there, frames.size());
     if (!cameras) return pass_on(cameras);
-    Drawing drawing{shown.scene, {}, {}, {}, {}, {}};
-    if (options.scene.overlay == render::overlay_cells) {
+    auto shapes = render::read_shapes(options.scene);
+    if (!shapes) return pass_on(shapes);
+    Drawing drawing{shown.scene, {}, {}, {}, {}, {}, std::move(*shapes)};
+    if (render::marks_cells(options.scene)) {
         drawing.cells.emplace(*grids.store, grids.domain,
                               chosen_freezing_levels(options.scene, shown.scene));
     }
@@ -148,8 +150,9 @@ Status prepare(const LoopGrids& grids, const cache::GridFile& first, LoopOptions
     const auto [from, to] = std::minmax_element(grids.frames.begin(), grids.frames.end(), by_time);
     render::PictureFacts told{options.domain,      from->time, to->time,
                               grids.frames.size(), between,    *error};
-    if (options.scene.overlay == render::overlay_cells)
+    if (render::marks_cells(options.scene))
         told.cells = render::cells_method(chosen_freezing_levels(options.scene, scene));
+    told.shapes = render::shape_names(options.scene);
     options.animation.metadata = render::metadata_of(told, description, scene);
     return {};
 }

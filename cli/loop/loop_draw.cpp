@@ -85,9 +85,12 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
     const auto render = [&] {
         return render::render_frame(is_over_time ? drawing.track.view() : grid->view(), facts,
                                     drawing.scene, threads, &drawing.cache,
-                                    {.cells = cells ? &*cells : nullptr});
+                                    {.cells = cells ? &*cells : nullptr,
+                                     .shapes = drawing.shapes ? &*drawing.shapes : nullptr});
     };
-    auto picture = options.kept != nullptr && frame.stored && !is_over_time
+    // The file of shapes may have changed since a frame was kept.
+    const bool may_be_kept = frame.stored && !is_over_time && !drawing.shapes;
+    auto picture = options.kept != nullptr && may_be_kept
                        ? options.kept->frame(frame.stored->path, drawing.scene, render,
                                              cells ? cell_export::cells_json(cells->scan) : "")
                        : render();

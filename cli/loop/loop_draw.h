@@ -24,6 +24,7 @@ struct Drawing {
     UtcTime made_for{};
     RotationTrack track;               // of the frames so far, for a product over time
     std::optional<StoredCells> cells;  // storm cells to mark
+    std::optional<render::ShapeOverlay> shapes;
 };
 
 // Draws one frame. If its grid is damaged or cannot be made, returns none and adds the reason to

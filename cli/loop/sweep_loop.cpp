@@ -24,7 +24,7 @@
 #include "cli/shared/commands.h"
 #include "cli/shared/progress.h"
 #include "pipeline/drop/archive_volumes.h"
-#include "render/frame/cell_overlay_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/frame/frame_cache.h"
 #include "render/frame/picture_metadata.h"
 #include "stormcellar/catalog/catalog.h"
@@ -68,6 +68,7 @@ struct SweepDrawing {
     // Storm cells to mark, of the grids of the cache or of the volumes; none if not asked for.
     std::optional<StoredCells> stored_cells;
     std::optional<SweptCells> swept_cells;
+    std::optional<render::ShapeOverlay> shapes;
 };
 
 Status check_sweep_loop(const LoopOptions& options) {
@@ -245,7 +246,7 @@ std::vector<SweepFrame> frames_of(const SweepSources& sources, const std::atomic
 }
 
 void prepare_cells(const SweepSources& sources, const LoopOptions& options, SweepDrawing& drawing) {
-    if (options.scene.overlay != render::overlay_cells) return;
+    if (!render::marks_cells(options.scene)) return;
     const auto freezing = chosen_freezing_levels(options.scene, drawing.scene);
     if (sources.store) {
         drawing.stored_cells.emplace(*sources.store, options.domain, freezing);
@@ -283,7 +284,8 @@ Status draw_frame(const SweepSources& sources, const SweepFrame& frame, const Lo
         frame_facts_of(options.domain, sweep->description(), options.scene.time_zone);
     auto picture = render::render_frame(sweep->view(), facts, drawing.scene,
                                         render::thread_count(options.scene), &drawing.cache,
-                                        {.cells = *cells ? &**cells : nullptr});
+                                        {.cells = *cells ? &**cells : nullptr,
+                                         .shapes = drawing.shapes ? &*drawing.shapes : nullptr});
     if (!picture) return pass_on(picture);
     report.render_s += seconds_since(read);
     if (report.frames == 0) report.from = report.to = frame.time;
@@ -307,8 +309,9 @@ Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>&
     if (!error) return pass_on(error);
     const auto [from, to] = std::ranges::minmax(frames, {}, &SweepFrame::time);
     render::PictureFacts told{options.domain, from.time, to.time, frames.size(), "", *error};
-    if (options.scene.overlay == render::overlay_cells)
+    if (render::marks_cells(options.scene))
         told.cells = render::cells_method(chosen_freezing_levels(options.scene, drawing.scene));
+    told.shapes = render::shape_names(options.scene);
     options.animation.metadata = render::metadata_of(
         told, sweep->description(), render::scene_shown(sweep->view(), drawing.scene));
     return {};
@@ -317,6 +320,9 @@ Status describe_loop(const SweepSources& sources, const std::vector<SweepFrame>&
 Status write_loop(const SweepSources& sources, const std::vector<SweepFrame>& frames,
                   const LoopOptions& options, const std::atomic<bool>& stop, SweepDrawing& drawing,
                   LoopReport& report) {
+    auto shapes = render::read_shapes(options.scene);
+    if (!shapes) return pass_on(shapes);
+    drawing.shapes = std::move(*shapes);
     auto writers = make_writers(options.outputs, options.animation);
     if (!writers) return pass_on(writers);
     Encoding encoding(std::move(*writers));

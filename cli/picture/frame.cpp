@@ -108,8 +108,11 @@ int run_frame(FrameOptions options) {
                        .total_s = seconds_since(start)};
     if (!options.output.empty()) {
         const grid::BrickView rotation = *columns ? (*columns)->view() : grid::BrickView{};
+        const auto shapes = render::read_shapes(options.scene);
+        if (!shapes) return report_error(shapes.error());
         const render::Overlays overlays{.rotation = *columns ? &rotation : nullptr,
-                                        .cells = grids->cells ? &*grids->cells : nullptr};
+                                        .cells = grids->cells ? &*grids->cells : nullptr,
+                                        .shapes = *shapes ? &**shapes : nullptr};
         const auto drawn = make_frame(options, *scene, *grid, overlays, start, fit_s);
         if (!drawn) return report_error(drawn.error());
         timing = *drawn;

@@ -93,7 +93,7 @@ Result<PictureGrid> stored_shear(const cache::StoreReader& store, const FrameOpt
 // Finds the storm cells to mark in a picture of this time, if they were asked for.
 Status find_stored_cells(const cache::StoreReader& store, const FrameOptions& options,
                          const render::Scene& scene, FrameGrids& grids) {
-    if (options.scene.overlay != render::overlay_cells) return {};
+    if (!render::marks_cells(options.scene)) return {};
     StoredCells cells(store, options.domain, chosen_freezing_levels(options.scene, scene));
     auto found = cells.at(grids.shown->description().time);
     if (!found) return pass_on(found);
@@ -229,7 +229,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
     if (product.hail != nullptr) options.grid.assumed_zero_c_m = scene.freezing_levels.zero_c_m;
     FrameGrids grids;
     const bool is_special = product.is_of_sweep || product.is_over_time || product.hail != nullptr;
-    if (options.scene.overlay == render::overlay_cells) {
+    if (render::marks_cells(options.scene)) {
         auto reflectivity = find_cells_of_files(options, scene, grids);
         if (!reflectivity) return pass_on(reflectivity);
         const bool is_shown = scene.moment == level2::Moment::ref && !options.rotation;

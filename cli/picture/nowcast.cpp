@@ -110,7 +110,7 @@ Result<std::optional<render::CellOverlay>> cells_to_mark(const NowcastCommand& c
                                                          const NowcastData& data,
                                                          const render::Scene& scene) {
     std::optional<render::CellOverlay> cells;
-    if (command.scene.overlay != render::overlay_cells || command.output.empty()) return cells;
+    if (!render::marks_cells(command.scene) || command.output.empty()) return cells;
     const auto freezing = chosen_freezing_levels(command.scene, scene);
     std::vector<retrieve::CellScan> scans;
     for (std::size_t i = 0; i < data.grids.size(); ++i) {
@@ -152,7 +152,10 @@ Result<std::vector<std::string>> write_nowcasts(const NowcastCommand& command,
         return pass_on(fitted);
     const auto cells = cells_to_mark(command, data, scene);
     if (!cells) return pass_on(cells);
-    const render::Overlays overlays{.cells = *cells ? &**cells : nullptr};
+    const auto shapes = render::read_shapes(command.scene);
+    if (!shapes) return pass_on(shapes);
+    const render::Overlays overlays{.cells = *cells ? &**cells : nullptr,
+                                    .shapes = *shapes ? &**shapes : nullptr};
     for (const retrieve::LeadScore& score : scores) {
         const auto moved = retrieve::nowcast(latest, data.motions, score.minutes, data.threads);
         if (!moved) return pass_on(moved);

@@ -104,6 +104,7 @@ Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& gr
             add("Melting layer", note.substr(retrieve::hydrometeor_words.size()));
     add("Hail error", facts.hail);
     add("Storm cells", facts.cells);
+    add("Shapes", facts.shapes);
     add("Grid", grid_text(grid.spec));
     add("Gridding", gridding_text(provenance));
     add("Gridding error", provenance.predicted_error);

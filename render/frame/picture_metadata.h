@@ -13,6 +13,7 @@
 //                       height of 0 C
 //   Hail error          if the freezing levels err; for a still
 //   Storm cells         if they are marked: how they were found and followed
+//   Shapes              if files of shapes are drawn: their names, and how many are in force
 //   Grid                cells, spacing, levels
 //   Gridding            method, beam, averaging, effects
 //   Gridding error      as predicted, if it was predicted
@@ -47,6 +48,7 @@ struct PictureFacts {
     std::string error;                  // error of the picture by its plan; empty: not planned
     std::string hail = {};              // error of the largest hail; empty: no hail
     std::string cells = {};             // the storm cells that are marked; empty: none are marked
+    std::string shapes = {};            // the files of shapes that are drawn; empty: none
 };
 
 // Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid, whose

@@ -1,7 +1,7 @@
 #include "stormcellar/render/render.h"
 
-#include "render/frame/cell_overlay_text.h"
 #include "render/frame/hail_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/frame/sweep_text.h"
 #include "render/frame/view_picture.h"
 #include "render/image/shades.h"
@@ -63,7 +63,12 @@ Result<Image> render_frame(const grid::BrickView& view, const FrameFacts& facts,
     if (!fonts) return pass_on(fonts);
     DrawnFacts texts{legend_of(scene), drawn_ring_spacing(*view.spec, scene), std::nullopt};
     if (overlays.rotation != nullptr) add_rotation_rows(texts.legend);
-    if (overlays.cells != nullptr) texts.cells = cell_notes(*overlays.cells);
+    if (overlays.cells != nullptr) texts.marks = cell_notes(*overlays.cells);
+    if (overlays.shapes != nullptr) {
+        if (!texts.marks.empty()) texts.marks.back() += ";";
+        texts.marks.push_back(overlays.shapes->name + ":");
+        texts.marks.push_back(shapes_shown(*overlays.shapes, facts.time));
+    }
     const auto sensitivity = hail_sensitivity(view, scene, threads);
     if (!sensitivity) return pass_on(sensitivity);
     texts.hail = *sensitivity;

@@ -134,6 +134,7 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
                    .ring_spacing_m = drawn_ring_spacing(spec, scene),
                    .units = scene.units,
                    .cells = drawn.overlays.cells,
+                   .shapes = drawn.overlays.shapes,
                    .time = drawn.facts.time,
                    .heights = view == View::volume,
                    .scale = size.scale,
@@ -157,15 +158,17 @@ Result<Image> draw_view(const DrawnView& drawn, const PictureSize& size, const F
         Image picture = canvas.image();
         draw_volume(drawn, geometry, threads, cache, picture);
         if (drawn.overlays.rotation != nullptr) draw_rotation(drawn, geometry, threads, picture);
-        if (fonts == nullptr && lines.cells == nullptr) return picture;
+        const bool has_marks = lines.cells != nullptr || lines.shapes != nullptr;
+        if (fonts == nullptr && !has_marks) return picture;
         canvas.place(picture, 0, 0);
     }
     const MapMarks marks = fonts != nullptr ? plan_marks(*fonts, lines) : MapMarks{};
     if (has_glyphs)
         draw_beam_glyphs(canvas, plan_beam_glyphs(*drawn.view.sweep, lines, marks), lines);
     if (fonts != nullptr) draw_marks(canvas, *fonts, lines, marks);
-    if (fonts == nullptr && lines.cells != nullptr) {
+    if (fonts == nullptr) {
         LabelPlaces places({});
+        draw_shape_marks(canvas, plan_shape_marks(nullptr, lines, places), lines);
         draw_cell_marks(canvas, plan_cell_marks(nullptr, lines, places), lines);
     }
     if (marks.glyph_key) draw_glyph_key(canvas, *fonts, lines, *marks.glyph_key);

@@ -129,6 +129,7 @@ void draw_scale_bar(Canvas& canvas, const Fonts& fonts, const MapLines& lines,
 void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const MapMarks& marks) {
     clip_to_picture(canvas, lines);
     draw_heights(canvas, fonts, lines, marks);
+    draw_shape_marks(canvas, marks.shapes, lines);
     draw_cell_marks(canvas, marks.cells, lines);
     for (const Point& city : marks.cities) {
         canvas.fill(circle_about(moved(lines, city), 2.6 * lines.scale), lines.shades->halo);
@@ -147,6 +148,8 @@ void draw_marks(Canvas& canvas, const Fonts& fonts, const MapLines& lines, const
     }
     draw_texts(canvas, fonts, lines, marks.ground_texts);
     draw_texts(canvas, fonts, lines, marks.site_texts);
+    for (const ShapeMark& mark : marks.shapes)
+        if (mark.label) draw_texts(canvas, fonts, lines, {*mark.label});
     // The label of a strong cell is over those of weaker cells.
     for (auto mark = marks.cells.rbegin(); mark != marks.cells.rend(); ++mark)
         if (mark->label) draw_texts(canvas, fonts, lines, {*mark->label});

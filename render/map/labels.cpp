@@ -282,15 +282,15 @@ Result<LabelLayout> lay_out_labels(const Fonts& fonts, const Scene& scene, const
     }
     if (view_of(scene.product) == View::section)
         make_room_for_inset(space, builder, layout, colors);
-    // Lines about storm cells are below the legend, or beside the product if the legend is one
-    // line.
+    // Lines about storm cells and shapes are below the legend, or beside the product if the legend
+    // is one line.
     Legend legend = picture.legend;
     std::string product = product_line(scene, facts);
-    if (space.band > 0 && !picture.cells.empty())
-        product += fmt::format("  \u00B7  {}", fmt::join(picture.cells, " "));
+    if (space.band > 0 && !picture.marks.empty())
+        product += fmt::format("  \u00B7  {}", fmt::join(picture.marks, " "));
     if (space.band == 0) {
-        if (!legend.notes.empty() && !picture.cells.empty()) legend.notes.back() += ";";
-        legend.notes.insert(legend.notes.end(), picture.cells.begin(), picture.cells.end());
+        if (!legend.notes.empty() && !picture.marks.empty()) legend.notes.back() += ";";
+        legend.notes.insert(legend.notes.end(), picture.marks.begin(), picture.marks.end());
     }
     lay_out_header(builder, space.shape, scene.width, header_of(facts, product));
     lay_out_footer(builder, scene.width, scene.height, footer_of(scene, facts, picture));

@@ -43,7 +43,7 @@ struct DrawnFacts {
     std::optional<Coverage> coverage;
     std::string sweep = {};  // for a ppi: the line about the sweep
     std::string hail = {};   // the error of the largest hail (render/frame/hail_text.h)
-    std::vector<std::string> cells = {};  // lines about the storm cells that are marked
+    std::vector<std::string> marks = {};  // lines about the storm cells and shapes that are drawn
 };
 
 // Lays out the labels. Errors: bad_argument if the picture of the scene is too small for labels.

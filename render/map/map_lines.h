@@ -33,9 +33,10 @@ struct MapLines {
     Units units;                         // units of written numbers
     Point glyph_key = {};                // width and height of the key of beam glyphs; 0: no key
     const CellOverlay* cells = nullptr;  // storm cells to mark; null: none
-    UtcTime time = {};                   // of the picture
-    bool heights = false;                // a scale of heights at the left edge of the box
-    double scale = 1;                    // of lines and text
+    const ShapeOverlay* shapes = nullptr;
+    UtcTime time = {};     // of the picture
+    bool heights = false;  // a scale of heights at the left edge of the box
+    double scale = 1;      // of lines and text
     const Shades* shades = &shades::dark;
     double left = 0, top = 0;
 };

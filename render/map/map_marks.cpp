@@ -47,6 +47,7 @@ class Planner {
         for (std::size_t i = 0; i < marks_.sites.size(); ++i)
             plan_site_name(marks_.sites[i], names_[i]);
         marks_.cells = plan_cell_marks(&fonts_, lines_, places_);
+        marks_.shapes = plan_shape_marks(&fonts_, lines_, places_);
         if (lines_.heights) plan_heights();
         if (lines_.sites->size() == 1) plan_distances();
         if (lines_.map != nullptr) plan_cities();

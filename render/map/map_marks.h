@@ -23,6 +23,7 @@
 #include "render/map/cell_marks.h"
 #include "render/map/map_lines.h"
 #include "render/map/mark_text.h"
+#include "render/map/shape_marks.h"
 
 namespace stormcellar::render {
 
@@ -51,6 +52,7 @@ struct MapMarks {
     std::optional<ScaleBar> scale_bar;
     std::optional<Rect> glyph_key = {};  // render/map/beam_glyphs.h
     std::vector<CellMark> cells = {};    // the strongest first
+    std::vector<ShapeMark> shapes = {};
 };
 
 [[nodiscard]] MapMarks plan_marks(const Fonts& fonts, const MapLines& lines);

@@ -107,13 +107,16 @@ constexpr std::array option_rows{
                   .key = "overlay",
                   .value = TextValue{.field = [](To to) { return &to.options.overlay; },
                                      .check = check_overlay,
+                                     .beside = overlay_beside,
                                      .known = known_overlays},
                   .used_by = by_all_but_section,
                   .help =
-                      "Mark what was found: {} for storm cells with their largest reflectivity, "
-                      "their tracks, and forecasts with errors. Tracks need several volumes: "
-                      "files of one radar, or a domain. With --freezing-levels, labels also "
-                      "have MESH in mm"},
+                      "Draw over the picture: {} for storm cells with their largest reflectivity, "
+                      "their tracks, and forecasts with errors; or a file of GeoJSON, such as "
+                      "warnings, or a placefile, whose shapes are drawn while they are in force; "
+                      "or several of these, separated by commas. Tracks need several volumes: "
+                      "files of one radar, or a domain. With --freezing-levels, labels of cells "
+                      "also have MESH in mm"},
     PictureOption{.option = "--height-km",
                   .section = "picture",
                   .key = "height_km",

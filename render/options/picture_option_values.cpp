@@ -6,6 +6,7 @@
 #include "base/local_time.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
+#include "base/split.h"
 #include "grid/frame/named_place.h"
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
@@ -132,9 +133,25 @@ std::string known_overlays() {
     return std::string(overlay_cells);
 }
 
-Status check_overlay(const std::string& name) {
-    if (name == overlay_cells) return {};
-    return fail(ErrorCode::bad_argument, "must be {}, not '{}'", known_overlays(), printable(name));
+Status check_overlay(const std::string& words) {
+    for (const std::string_view word : split(words, ',')) {
+        const bool is_file = word.find_first_of("./") != std::string_view::npos;
+        if (word == overlay_cells || is_file) continue;
+        return fail(ErrorCode::bad_argument,
+                    "must be {}, or a file of GeoJSON or a placefile, or both with a comma between "
+                    "them, not '{}'",
+                    known_overlays(), printable(word));
+    }
+    return {};
+}
+
+std::string overlay_beside(const std::filesystem::path& directory, const std::string& words) {
+    std::string all;
+    for (const std::string_view word : split(words, ',')) {
+        if (!all.empty()) all += ',';
+        all += word == overlay_cells ? std::string(word) : (directory / word).native();
+    }
+    return all;
 }
 
 bool is_color_file(const std::string& name) {

@@ -38,7 +38,10 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_time_zone(const std::string& zone);
 [[nodiscard]] Status check_colors(const std::string& name);
 [[nodiscard]] Status check_smoothing(const std::string& name);
-[[nodiscard]] Status check_overlay(const std::string& name);
+[[nodiscard]] Status check_overlay(const std::string& words);
+// Returns the overlay of a scene file in this directory, with its files there.
+[[nodiscard]] std::string overlay_beside(const std::filesystem::path& directory,
+                                         const std::string& words);
 // Return the known names, for help.
 [[nodiscard]] std::string known_overlays();
 [[nodiscard]] std::string known_moments();

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 #include <utility>
 #include <variant>
 
 #include "base/floating_point.h"
 #include "base/local_time.h"
+#include "base/split.h"
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
 #include "render/options/moment_name.h"
+#include "render/overlay/shape_file.h"
 #include "retrieve/nowcast/nowcast_note.h"
 #include "retrieve/rain/rain_note.h"
 
@@ -34,7 +38,7 @@ Status check_uses(Product product, const SceneOptions& options) {
     const auto files = product_from_name(options.file_product);
     for (const PictureOption& row : picture_options()) {
         if (row.is_used_by(product)) continue;
-        if (row.used_by_cells && options.overlay == overlay_cells) continue;
+        if (row.used_by_cells && marks_cells(options)) continue;
         if (contains(options.typed, row)) return unused(spelled(row, options), row, product);
         const bool was_used = files && row.is_used_by(*files);
         if (!was_used && contains(options.in_file, row)) return unused(key_of(row), row, product);
@@ -186,6 +190,38 @@ std::optional<retrieve::FreezingLevels> chosen_freezing_levels(const SceneOption
                           contains(options.in_file, freezing_levels_option());
     if (!is_given && facts_of(scene.product).hail == nullptr) return std::nullopt;
     return scene.freezing_levels;
+}
+
+bool marks_cells(const SceneOptions& options) {
+    const auto words = split(options.overlay, ',');
+    return std::ranges::find(words, overlay_cells) != words.end();
+}
+
+std::string shape_names(const SceneOptions& options) {
+    std::string names;
+    for (const std::string_view word : split(options.overlay, ',')) {
+        if (word.empty() || word == overlay_cells) continue;
+        if (!names.empty()) names += ", ";
+        names += std::filesystem::path(word).filename().string();
+    }
+    return names;
+}
+
+Result<std::optional<ShapeOverlay>> read_shapes(const SceneOptions& options) {
+    std::optional<ShapeOverlay> all;
+    for (const std::string_view word : split(options.overlay, ',')) {
+        if (word.empty() || word == overlay_cells) continue;
+        auto shapes = read_shape_file(word);
+        if (!shapes) return pass_on(shapes);
+        if (!all) {
+            all = std::move(*shapes);
+            all->name = shape_names(options);
+            continue;
+        }
+        all->unknown += shapes->unknown;
+        std::ranges::move(shapes->shapes, std::back_inserter(all->shapes));
+    }
+    return all;
 }
 
 std::string moment_asked(const SceneOptions& options) {

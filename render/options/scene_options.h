@@ -18,13 +18,15 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/render/animation.h"
 #include "stormcellar/render/frame_facts.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/scene.h"
 #include "stormcellar/retrieve/derived_moments.h"
 
 namespace stormcellar::render {
 
 inline constexpr NumberRange thread_range{0, 1024};
-// The overlay that marks storm cells (render/map/cell_marks.h).
+// The word of an overlay that marks storm cells (render/map/cell_marks.h). The other words are
+// files of shapes (render/overlay/shape_file.h).
 inline constexpr std::string_view overlay_cells = "cells";
 
 // The form in which messages write the name of an option.
@@ -41,7 +43,7 @@ struct SceneOptions {
     std::string panels;     // from a scene file: "REF,VEL", several in a picture; empty: one moment
     std::string colors;     // empty: the colors of the product or the moment
     std::string smooth;     // cubic or none; empty: cubic, or none for a scene file
-    std::string overlay;    // overlay_cells; empty: none
+    std::string overlay;    // words separated by commas: overlay_cells and files; empty: none
     std::string time_zone;  // IANA; empty: the zone of the machine
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
@@ -74,6 +76,13 @@ struct LoopChoices {
 // of hail; none if nobody chose levels.
 [[nodiscard]] std::optional<retrieve::FreezingLevels> chosen_freezing_levels(
     const SceneOptions& options, const Scene& scene);
+
+// Returns true if the overlay marks storm cells.
+[[nodiscard]] bool marks_cells(const SceneOptions& options);
+// Returns the names of the files of the overlay: "a.geojson, b.txt".
+[[nodiscard]] std::string shape_names(const SceneOptions& options);
+// Reads the files of the overlay; none if it has no files. Errors: those of read_shape_file().
+[[nodiscard]] Result<std::optional<ShapeOverlay>> read_shapes(const SceneOptions& options);
 
 // Returns the name of the moment, which is that of the product if it is made of one moment alone
 // and no moment is given.

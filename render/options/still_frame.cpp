@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "render/frame/cell_overlay_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/frame/hail_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/fitted_view.h"
@@ -17,6 +17,8 @@ Metadata metadata_of_still(const StillSource& source, const Scene& scene,
     PictureFacts told{source.domain, time, time, std::nullopt, {}, writing.error};
     // If the sensitivity cannot be computed, drawing the picture fails with the reason.
     if (source.overlays.cells != nullptr) told.cells = cells_sentence(*source.overlays.cells);
+    if (const ShapeOverlay* shapes = source.overlays.shapes)
+        told.shapes = fmt::format("{}: {}", shapes->name, shapes_shown(*shapes, time));
     told.hail = hail_sensitivity(source.view, scene, writing.threads).value_or("");
     if (writing.format.encode_map == nullptr) return metadata_of(told, source.description, scene);
     // Data must be in the units of the grid. A map as data has no picture size.

@@ -1,10 +1,13 @@
 // Marks storm cells in pictures of files and of a cache, and refuses what cannot have marks.
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/cli/loop_fixture.h"
+#include "tests/render/decoded_animation.h"
 #include "tests/testing/small_sequence.h"
 
 namespace stormcellar::cli {
@@ -86,9 +89,101 @@ TEST_F(CellOverlayPictures, LoopsAndNowcastsHaveMarks) {
     EXPECT_THAT(soon, HasSubstr("followed through 3 volumes"));
 }
 
+// The first warning is in force in the last two of the three volumes, the second one never.
+constexpr const char* warnings = R"({"type": "FeatureCollection", "features": [
+  {"type": "Feature",
+   "properties": {"event": "Tornado Warning", "onset": "2005-08-22T02:49:00Z",
+                  "ends": "2005-08-22T03:15:00Z"},
+   "geometry": {"type": "Polygon",
+                "coordinates": [[[-77, 41.5], [-75, 41.5], [-75, 42.9], [-77, 41.5]]]}},
+  {"type": "Feature",
+   "properties": {"event": "Tornado Warning", "onset": "2006-08-22T02:49:00Z"},
+   "geometry": {"type": "Point", "coordinates": [-76, 42]}}]})";
+
+class ShapeOverlayPictures : public CellOverlayPictures {
+  protected:
+    void SetUp() override {
+        CellOverlayPictures::SetUp();
+        std::ofstream(out("warnings.geojson")) << warnings;
+    }
+    [[nodiscard]] std::string shapes_in(const std::string& file) const {
+        return png_texts(out(file))["Shapes"];
+    }
+    [[nodiscard]] Words drawn(const std::string& overlay, const std::string& output) const {
+        return {"--overlay", overlay,    "--product", "composite", "--width",
+                "420",       "--height", "320",       "-o",        out(output)};
+    }
+};
+
+TEST_F(ShapeOverlayPictures, DrawWhatIsInForce) {
+    for (const auto& [volume, text] : {std::pair{0, "warnings.geojson: 0 of 2 in force"},
+                                       {2, "warnings.geojson: 1 of 2 in force"}}) {
+        const auto ran =
+            run(with({"frame", files_[volume]}, drawn(out("warnings.geojson"), "a.png")));
+        ASSERT_EQ(ran.status, 0) << ran.err;
+        EXPECT_EQ(shapes_in("a.png"), text);
+    }
+    ASSERT_EQ(run({"frame", files_[2], "--product", "composite", "--width", "420", "--height",
+                   "320", "-o", out("plain.png")})
+                  .status,
+              0);
+    const auto with_shapes = render::decode_png_file(out("a.png"));
+    const auto plain = render::decode_png_file(out("plain.png"));
+    const auto red = [](const render::Image& image) {
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const render::Rgba8 p = image.at(x, y);
+                if (p[0] > 240 && p[1] < 10 && p[2] < 10) ++count;
+            }
+        }
+        return count;
+    };
+    EXPECT_GT(red(with_shapes), red(plain) + 40);
+}
+
+TEST_F(ShapeOverlayPictures, GoWithCellsInSceneFilesLoopsAndNowcasts) {
+    const std::string both = "cells," + out("warnings.geojson");
+    const auto frame = run(with({"frame"}, files_, drawn(both, "both.png")));
+    ASSERT_EQ(frame.status, 0) << frame.err;
+    EXPECT_EQ(shapes_in("both.png"), "warnings.geojson: 1 of 2 in force");
+    EXPECT_THAT(png_texts(out("both.png"))["Storm cells"], HasSubstr("1 storm cell"));
+    std::ofstream(out("scene.toml"))
+        << "[picture]\nproduct = \"composite\"\noverlay = \"warnings.geojson\"\n";
+    const auto scene =
+        run({"frame", files_[2], "--scene", out("scene.toml"), "-o", out("scene.png")});
+    ASSERT_EQ(scene.status, 0) << scene.err;
+    EXPECT_EQ(shapes_in("scene.png"), "warnings.geojson: 1 of 2 in force");
+    for (const char* product : {"composite", "ppi"}) {
+        const std::string directory = std::string(product) + "/";
+        const auto loop = run(with(
+            {"loop"}, files_,
+            {"--overlay", out("warnings.geojson"), "--product", product, "-o", out(directory)}));
+        ASSERT_EQ(loop.status, 0) << loop.err;
+        EXPECT_THAT(shapes_in(directory + "frame_0002.png"), HasSubstr("warnings.geojson"));
+    }
+    const auto nowcast =
+        run(with({"nowcast"}, files_,
+                 with(drawn(out("warnings.geojson"), "soon.png"), {"--minutes", "30"})));
+    ASSERT_EQ(nowcast.status, 0) << nowcast.err;
+    EXPECT_EQ(shapes_in("soon.png"), "warnings.geojson: 0 of 2 in force")
+        << "half an hour after the last volume";
+}
+
+TEST_F(ShapeOverlayPictures, NameTheFileThatCannotBeRead) {
+    const auto none = run(with({"frame", files_[0]}, drawn(out("none.geojson"), "b.png")));
+    EXPECT_NE(none.status, 0);
+    EXPECT_THAT(none.err, HasSubstr("none.geojson"));
+    std::ofstream(out("bad.geojson")) << R"({"type": "Point", "coordinates": [1]})";
+    const auto bad = run(with({"frame", files_[0]}, drawn(out("bad.geojson"), "b.png")));
+    EXPECT_NE(bad.status, 0);
+    EXPECT_THAT(bad.err, HasSubstr("bad.geojson: a position is no list of two numbers"));
+    EXPECT_FALSE(std::filesystem::exists(out("b.png")));
+}
+
 TEST_F(CellOverlayPictures, RefuseWhatCannotHaveMarks) {
-    EXPECT_THAT(refusal({"frame", files_[0], "--overlay", "storms.geojson", "-o", out("a.png")}),
-                HasSubstr("--overlay: must be cells, not 'storms.geojson'"));
+    EXPECT_THAT(refusal({"frame", files_[0], "--overlay", "storms", "-o", out("a.png")}),
+                HasSubstr("--overlay: must be cells, or a file of GeoJSON"));
     EXPECT_THAT(refusal(with({"frame", files_[0]}, marked("a.tif"))),
                 HasSubstr("GeoTIFF holds data without marks"));
     EXPECT_THAT(refusal(with({"nowcast"}, files_, marked("a.nc"))),

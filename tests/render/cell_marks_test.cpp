@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/frame/cell_overlay_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/image/shades.h"
 #include "render/map/labels.h"
 #include "render/map/map_marks.h"
@@ -280,7 +280,7 @@ TEST(CellMarks, EachShapeOfPictureSaysHowTheCellsWereFound) {
         scene.width = 800;
         scene.height = height;
         DrawnFacts texts{legend_of(scene), 50e3, std::nullopt};
-        texts.cells = {"1 storm cell,", "peaks from 41 dBZ"};
+        texts.marks = {"1 storm cell,", "peaks from 41 dBZ"};
         const auto layout = lay_out_labels(fonts, scene, facts, texts);
         ASSERT_TRUE(layout);
         const bool says_it = std::ranges::any_of(layout->texts, [](const LabelText& text) {

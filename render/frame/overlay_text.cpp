@@ -1,4 +1,6 @@
-#include "render/frame/cell_overlay_text.h"
+#include "render/frame/overlay_text.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -47,6 +49,14 @@ std::string cells_sentence(const CellOverlay& overlay) {
     return fmt::format("{} at {}, {}; {}", cells_counted(overlay.scan.cells.size()),
                        format_utc(overlay.scan.time), followed,
                        cells_method(overlay.scan.freezing, overlay.method));
+}
+
+std::string shapes_shown(const ShapeOverlay& shapes, UtcTime time) {
+    const auto in_force = std::ranges::count_if(
+        shapes.shapes, [time](const OverlayShape& shape) { return shape.is_in_force(time); });
+    std::string text = fmt::format("{} of {} in force", in_force, shapes.shapes.size());
+    if (shapes.unknown > 0) text += fmt::format(", {} unknown", shapes.unknown);
+    return text;
 }
 
 }  // namespace stormcellar::render

@@ -1,5 +1,5 @@
-// render/frame/cell_overlay_text.h -- says which storm cells a picture marks, and how they were
-// found.
+// render/frame/overlay_text.h -- says which storm cells a picture marks, how they were found, and
+// how many shapes of files it shows.
 //
 // Threads   Pure functions.
 #pragma once
@@ -22,5 +22,9 @@ namespace stormcellar::render {
 // Returns the method alone, for the metadata of a loop.
 [[nodiscard]] std::string cells_method(const std::optional<retrieve::FreezingLevels>& freezing,
                                        const retrieve::CellOptions& method = {});
+
+// Returns how many of the shapes are drawn in a picture of this time: "3 of 8 in force", or "3 of 8
+// in force, 2 unknown" if the file has parts that cannot be drawn.
+[[nodiscard]] std::string shapes_shown(const ShapeOverlay& shapes, UtcTime time);
 
 }  // namespace stormcellar::render

@@ -1,0 +1,204 @@
+#include <array>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "base/printable.h"
+#include "render/overlay/shape_file.h"
+#include "render/overlay/shape_values.h"
+
+namespace stormcellar::render {
+namespace {
+
+using Json = nlohmann::json;
+
+struct EventColor {
+    std::string_view event;
+    Rgba8 color;
+};
+// The colors of the National Weather Service's map of hazards.
+constexpr std::array<EventColor, 10> event_colors = {{
+    {"Tornado Warning", {255, 0, 0, 255}},
+    {"Severe Thunderstorm Warning", {255, 165, 0, 255}},
+    {"Flash Flood Warning", {139, 0, 0, 255}},
+    {"Special Marine Warning", {255, 165, 0, 255}},
+    {"Snow Squall Warning", {199, 21, 133, 255}},
+    {"Flood Warning", {0, 255, 0, 255}},
+    {"Flood Advisory", {0, 255, 127, 255}},
+    {"Special Weather Statement", {255, 228, 181, 255}},
+    {"Tornado Watch", {255, 255, 0, 255}},
+    {"Severe Thunderstorm Watch", {219, 112, 147, 255}},
+}};
+
+constexpr std::array begin_names = {"polygon_begin", "onset", "issue", "effective", "begin"};
+constexpr std::array end_names = {"polygon_end", "ends", "expire", "expires", "end"};
+
+// Returns the first of these properties that is a text; empty if there is none.
+template <class Names>
+std::string text_of(const Json& properties, const Names& names) {
+    for (const char* name : names) {
+        const auto found = properties.find(name);
+        if (found != properties.end() && found->is_string() && !found->empty())
+            return found->template get<std::string>();
+    }
+    return {};
+}
+
+template <class Names>
+Result<std::optional<UtcTime>> time_of(const Json& properties, const Names& names) {
+    const std::string text = text_of(properties, names);
+    if (text.empty()) return std::nullopt;
+    const auto time = shape_time(text);
+    if (!time) return pass_on(time);
+    return *time;
+}
+
+Result<std::optional<Rgba8>> color_of(const Json& properties) {
+    const std::string given = text_of(properties, std::array{"stroke", "marker-color", "color"});
+    if (given.starts_with('#')) {
+        const auto color = shape_color(given);
+        if (!color) return pass_on(color);
+        return *color;
+    }
+    const std::string event = text_of(properties, std::array{"event"});
+    for (const EventColor& known : event_colors)
+        if (known.event == event) return known.color;
+    return std::nullopt;
+}
+
+// Returns what all shapes of a feature share.
+Result<OverlayShape> style_of(const Json& feature) {
+    OverlayShape style;
+    const auto found = feature.find("properties");
+    if (found == feature.end() || !found->is_object()) return style;
+    const Json& properties = *found;
+    const auto color = color_of(properties);
+    if (!color) return pass_on(color);
+    const auto from = time_of(properties, begin_names);
+    if (!from) return pass_on(from);
+    const auto until = time_of(properties, end_names);
+    if (!until) return pass_on(until);
+    style.color = *color;
+    style.from = *from;
+    style.until = *until;
+    style.label = text_of(properties, std::array{"title", "name"});
+    if (const auto width = properties.find("stroke-width");
+        width != properties.end() && width->is_number())
+        style.width = std::clamp(width->get<float>(), 0.5F, 20.0F);
+    return style;
+}
+
+class GeoJsonReader {
+  public:
+    Status read(const Json& value) {
+        if (!value.is_object()) return fail(ErrorCode::corrupt, "it is no object of GeoJSON");
+        const std::string type = type_of(value);
+        if (type != "FeatureCollection") return read_feature(value);
+        const auto features = value.find("features");
+        if (features == value.end() || !features->is_array())
+            return fail(ErrorCode::corrupt, "its FeatureCollection has no features");
+        std::size_t number = 0;
+        for (const Json& feature : *features) {
+            const Status read = read_feature(feature);
+            if (!read)
+                return fail(read.error().code, "feature {}: {}", number, read.error().message);
+            ++number;
+        }
+        return {};
+    }
+    ShapeOverlay taken;
+
+  private:
+    static std::string type_of(const Json& value) {
+        return value.is_object() ? text_of(value, std::array{"type"}) : std::string{};
+    }
+
+    Status read_feature(const Json& feature) {
+        if (type_of(feature) != "Feature") return read_geometry(feature, {});
+        const auto style = style_of(feature);
+        if (!style) return pass_on(style);
+        const auto geometry = feature.find("geometry");
+        if (geometry == feature.end() || geometry->is_null()) {
+            ++taken.unknown;
+            return {};
+        }
+        return read_geometry(*geometry, *style);
+    }
+
+    Status read_geometry(const Json& geometry, const OverlayShape& style) {
+        const std::string type = type_of(geometry);
+        if (type == "GeometryCollection") {
+            const auto parts = geometry.find("geometries");
+            if (parts == geometry.end()) return fail(ErrorCode::corrupt, "it has no geometries");
+            for (const Json& part : *parts) {
+                if (type_of(part) == "GeometryCollection")
+                    return fail(ErrorCode::corrupt, "a GeometryCollection is in another one");
+                if (Status read = read_geometry(part, style); !read) return read;
+            }
+            return {};
+        }
+        const int depth = type == "Point"                                  ? 0
+                          : type == "LineString" || type == "MultiPoint"   ? 1
+                          : type == "Polygon" || type == "MultiLineString" ? 2
+                          : type == "MultiPolygon"                         ? 3
+                                                                           : -1;
+        if (depth < 0)
+            return fail(ErrorCode::corrupt, "'{}' is no geometry of GeoJSON", printable(type));
+        const auto places = geometry.find("coordinates");
+        if (places == geometry.end()) return fail(ErrorCode::corrupt, "it has no coordinates");
+        return read_lines(*places, type == "MultiPoint" ? 0 : depth, style);
+    }
+
+    // Reads places: a point (depth 0), a line (1), or lists of lines. A list of points is at depth
+    // 0, too.
+    Status read_lines(const Json& places, int depth, const OverlayShape& style) {
+        if (!places.is_array()) return fail(ErrorCode::corrupt, "its coordinates are no list");
+        const bool is_list = depth > 1 || (depth == 0 && !places.empty() && places[0].is_array());
+        if (is_list) {
+            for (const Json& part : places)
+                if (Status read = read_lines(part, std::max(depth - 1, 0), style); !read)
+                    return read;
+            return {};
+        }
+        OverlayShape shape = style;
+        if (depth == 0) return add(shape, places);
+        for (const Json& place : places)
+            if (Status added = take_place(shape, place); !added) return added;
+        if (shape.points.size() > 1) taken.shapes.push_back(std::move(shape));
+        return {};
+    }
+
+    Status add(OverlayShape& point, const Json& place) {
+        if (place.empty()) return {};  // RFC 7946: an empty geometry is like none
+        if (Status added = take_place(point, place); !added) return added;
+        taken.shapes.push_back(std::move(point));
+        return {};
+    }
+
+    Status take_place(OverlayShape& shape, const Json& place) {
+        const bool has_both =
+            place.is_array() && place.size() >= 2 && place[0].is_number() && place[1].is_number();
+        if (!has_both) return fail(ErrorCode::corrupt, "a position is no list of two numbers");
+        const auto at = shape_place(place[1].get<double>(), place[0].get<double>());
+        if (!at) return pass_on(at);
+        if (++points_ > most_shape_points)
+            return fail(ErrorCode::over_budget, "it has more than {} points", most_shape_points);
+        shape.points.push_back(*at);
+        return {};
+    }
+
+    std::size_t points_ = 0;
+};
+
+}  // namespace
+
+Result<ShapeOverlay> shapes_of_geojson(std::string_view text) {
+    const Json value = Json::parse(text, nullptr, false);
+    if (value.is_discarded()) return fail(ErrorCode::corrupt, "it is no valid JSON");
+    GeoJsonReader reader;
+    if (Status read = reader.read(value); !read) return pass_on(read);
+    return std::move(reader.taken);
+}
+
+}  // namespace stormcellar::render
