@@ -25,9 +25,9 @@ constexpr MqttScheme mqtt_schemes[] = {{"mqtt://", false, 1883}, {"mqtts://", tr
 
 // Tables of other programs. The shipped file has all of them, and
 // tests/notify/notify_config_test.cpp loads it, so the test fails if a name is missing here.
-constexpr std::string_view tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
-                                                 "catalog", "watch", "partials", "status",
-                                                 "station", "web",   "pull",     "feed"};
+constexpr std::string_view tables_of_others[] = {
+    "ingest", "cache",   "domain", "loop", "catalog", "watch",  "partials",
+    "status", "station", "web",    "pull", "feed",    "overlay"};
 
 bool is_name(std::string_view name) {
     return cache::is_domain_name(name) && !cache::is_part(name);

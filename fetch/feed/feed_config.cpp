@@ -16,9 +16,9 @@ constexpr std::size_t most_stations = 400;
 
 // Tables of other programs. The shipped file has all of them, and
 // tests/fetch/feed/feed_config_test.cpp loads it, so the test fails if a name is missing here.
-constexpr std::string_view tables_of_others[] = {"ingest",  "cache", "domain",   "loop",
-                                                 "catalog", "watch", "partials", "status",
-                                                 "station", "web",   "pull",     "notify"};
+constexpr std::string_view tables_of_others[] = {
+    "ingest", "cache",   "domain", "loop", "catalog", "watch",  "partials",
+    "status", "station", "web",    "pull", "notify",  "overlay"};
 
 void read_stations(TomlTable& feed, std::vector<std::string>& stations) {
     if (feed.is_text("stations")) {

@@ -19,7 +19,7 @@ constexpr std::size_t most_stations = 1024;
 // tests/fetch/pull/pull_config_test.cpp loads it, so the test fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {
     "paths",    "ingest", "cache",   "domain", "loop", "catalog", "watch",
-    "partials", "status", "station", "web",    "feed", "notify"};
+    "partials", "status", "station", "web",    "feed", "notify",  "overlay"};
 
 void read_domains(TomlTable& from, PullSource& source) {
     const auto domains = from.texts("domains");

@@ -27,6 +27,24 @@ TEST(WebConfig, TheOriginsThatEmbedPagesAreRead) {
     EXPECT_TRUE(setup_of("")->web.embed_in.empty());
 }
 
+TEST(WebConfig, OverlaysAreNamedAndHaveAbsolutePaths) {
+    const auto setup = setup_of("[[overlay]]\nname = 'warnings'\npath = '/var/lib/warnings'");
+    ASSERT_TRUE(setup) << setup.error().message;
+    EXPECT_EQ(setup->web.overlays,
+              (std::vector<ConfiguredOverlay>{{"warnings", "/var/lib/warnings"}}));
+    const std::string good = "[[overlay]]\nname = 'a'\npath = '/a'\n";
+    for (const char* lines :
+         {"[[overlay]]\npath = '/a'", "[[overlay]]\nname = 'a/b'\npath = '/a'",
+          "[[overlay]]\nname = '..'\npath = '/a'", "[[overlay]]\nname = 'b'",
+          "[[overlay]]\nname = 'b'\npath = 'b.json'", "[[overlay]]\nname = 'a'\npath = '/b'"}) {
+        const auto refused = setup_of(good + lines);
+        ASSERT_FALSE(refused) << lines;
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+        EXPECT_NE(refused.error().message.find("[overlay]"), std::string::npos)
+            << refused.error().message;
+    }
+}
+
 TEST(WebConfig, WhatIsNoOriginIsRefusedByName) {
     for (const char* origin : {"*", "news.example.org", "https://news.example.org/path",
                                "https://a.example; script-src *", "https://a.example b.example"}) {

@@ -218,6 +218,21 @@ void read_collection(TomlTable& table, ThreddsConfig& config) {
     config.collections.push_back(std::move(collection));
 }
 
+void read_overlay(TomlTable& table, std::vector<ConfiguredOverlay>& overlays) {
+    ConfiguredOverlay overlay;
+    overlay.name = table.text("name").value_or("");
+    overlay.path = table.text("path").value_or("");
+    const bool is_segment = overlay.name.find('/') == std::string::npos;
+    if (overlay.name.empty() || !is_segment || !is_path_prefix("/" + overlay.name)) {
+        table.complain("name", "must be letters, digits and \"-._\", such as warnings");
+    } else if (std::ranges::count(overlays, overlay.name, &ConfiguredOverlay::name) > 0) {
+        table.complain("name", fmt::format("{} is named twice", overlay.name));
+    }
+    if (!overlay.path.is_absolute())
+        table.complain("path", "must be the absolute path of a file or a directory");
+    overlays.push_back(std::move(overlay));
+}
+
 void read_place(TomlTable& table, ThreddsConfig& config) {
     ConfiguredPlace place;
     place.id = table.text("id").value_or("");
@@ -386,6 +401,8 @@ WebConfig read_web_config(TomlTable& root) {
     retrieve::read_freezing_levels(web, config.freezing);
     read_thredds(web.section("thredds"), config.thredds);
     read_limits(web.section("limits"), config.limits);
+    for (TomlTable& table : root.tables("overlay"))
+        read_overlay(table, config.overlays);
     return config;
 }
 

@@ -42,7 +42,7 @@ enum class WebPart {
     s3,        // the listing of a bucket: /s3
     grids,     // JSON, packed grids, netCDF: /api/v1
     zarr,      // /zarr and /zarr3
-    pictures,  // frames, loops, tiles and WMS: /frames, /loops, /tiles, /wms
+    pictures,  // frames, loops, tiles, WMS and overlays: /frames, /loops, /tiles, /wms, /overlays
     events,    // /api/v1/events
     metrics,   // /metrics
 };
@@ -116,6 +116,13 @@ struct WebLimits {
     bool operator==(const WebLimits&) const = default;
 };
 
+// An overlay of shapes, such as warnings (web/doors/overlays/served_overlays.h).
+struct ConfiguredOverlay {
+    std::string name;            // in addresses: letters, digits and "-._"
+    std::filesystem::path path;  // a file, or a directory of files
+    bool operator==(const ConfiguredOverlay&) const = default;
+};
+
 struct WebConfig {
     std::vector<BindAddress> listen = {{"127.0.0.1", 8090}, {"::1", 8090}};
     std::vector<std::string> names;  // host names of this server, in lower case
@@ -129,6 +136,7 @@ struct WebConfig {
     std::chrono::seconds silent{1200};
     retrieve::FreezingLevels freezing;  // for MESH of storm cells
     ThreddsConfig thredds = usual_thredds();
+    std::vector<ConfiguredOverlay> overlays;
     WebLimits limits;
 
     [[nodiscard]] bool serves(WebPart part) const;
@@ -136,8 +144,8 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
-// Reads [web], [web.thredds], [[web.thredds.collection]] and [web.limits]. Each error becomes a
-// complaint of the table.
+// Reads [web], [web.thredds], [[web.thredds.collection]], [web.limits] and [[overlay]]. Each error
+// becomes a complaint of the table.
 [[nodiscard]] WebConfig read_web_config(TomlTable& root);
 
 }  // namespace stormcellar::web

@@ -11,6 +11,7 @@
 #include "web/doors/events/events.h"
 #include "web/doors/index/index.h"
 #include "web/doors/metrics/metrics.h"
+#include "web/doors/overlays/overlays.h"
 #include "web/doors/pictures/frames.h"
 #include "web/doors/pictures/loops.h"
 #include "web/doors/pictures/tiles.h"
@@ -179,7 +180,10 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::events)) add_events(*doors, watched, limits);
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
-    if (setup.web.serves(WebPart::pictures)) add_pictures(*doors, sources, pictures);
+    if (setup.web.serves(WebPart::pictures)) {
+        add_pictures(*doors, sources, pictures);
+        doors->add("/overlays", std::make_shared<OverlaysDoor>(setup.web.overlays));
+    }
     // The page of the viewer draws data of the API.
     if (setup.web.serves(WebPart::grids) && !viewer_files().empty())
         doors->add("/view", std::make_shared<ViewerDoor>());

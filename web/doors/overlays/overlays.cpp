@@ -1,0 +1,30 @@
+#include "web/doors/overlays/overlays.h"
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "web/data/grids/text_answer.h"
+
+namespace stormcellar::web {
+
+Answer OverlaysDoor::answer(const Request& request) {
+    constexpr std::string_view ending = ".geojson";
+    const auto path = segments_of(request.path);
+    if (path.size() == 1) {
+        nlohmann::ordered_json names = nlohmann::ordered_json::array();
+        for (const ConfiguredOverlay& overlay : overlays_.overlays())
+            names.push_back({{"name", overlay.name}});
+        const nlohmann::ordered_json document = {{"overlays", std::move(names)}};
+        return text_answer_to(request, "application/json", document.dump() + "\n");
+    }
+    std::string_view name = path[1];
+    if (path.size() == 2 && name.ends_with(ending)) {
+        name.remove_suffix(ending.size());
+        if (const auto text = overlays_.geojson(name))
+            return text_answer_to(request, "application/geo+json", **text);
+    }
+    return sentence(404, "There are /overlays and /overlays/NAME.geojson here.");
+}
+
+}  // namespace stormcellar::web
