@@ -54,9 +54,12 @@ test('playback stays in its loop', async ({ page, viewer, newest }) => {
   await viewer.give('speed', 15);
   await page.evaluate(() => {
     window.seen = [];
+    window.seenAtMs = [];
     const look = () => {
       const { drawn } = document.documentElement.dataset;
-      if (drawn && drawn !== window.seen.at(-1)) window.seen.push(drawn);
+      if (!drawn || drawn === window.seen.at(-1)) return;
+      window.seen.push(drawn);
+      window.seenAtMs.push(performance.now());
     };
     new MutationObserver(look).observe(document.documentElement, { attributes: true });
   });
@@ -65,6 +68,44 @@ test('playback stays in its loop', async ({ page, viewer, newest }) => {
   await viewer.press('play');
   expect(new Set(seen).size, 'volumes').toBe(2);
   expect(seen).toContain(first);
+  const atMs = await page.evaluate(() => window.seenAtMs);
+  const stays = seen.slice(1, -1).flatMap((one, i) => (one === first ? [] : [atMs[i + 2] - atMs[i + 1]]));
+  expect(Math.min(...stays), 'ms for which the last volume of the loop is shown').toBeGreaterThan(1200);
+});
+
+test('the ends of the loop are dragged, and the last volumes are chosen', async ({ page, viewer, newest, times }) => {
+  const last = times.length - 1;
+  const box = await viewer.byId('times').boundingBox();
+  const xOf = (index) => box.x + 8 + ((box.width - 16) * index) / last;
+  const ends = () => Promise.all(['from', 'to'].map(async (end) => Number(await viewer.byId(`loop-drag-${end}`).getAttribute('aria-valuenow'))));
+  expect(await ends(), 'a loop over all').toEqual([0, last]);
+  for (const [end, index, by] of [['from', 1, 1], ['to', last - 1, -1]]) {
+    const handle = await viewer.byId(`loop-drag-${end}`).boundingBox();
+    const [x, y] = [handle.x + handle.width / 2, handle.y + handle.height - 4];
+    await viewer.drag([x, y], [by * (xOf(1) - xOf(0)) - (end === 'from' ? x - xOf(0) : x - xOf(last)), 0]);
+    expect((await ends())[end === 'from' ? 0 : 1], `${end} after a drag`).toBe(index);
+  }
+  await expect(viewer.byId('loop-drag-from')).toHaveAttribute('aria-valuetext', times[1]);
+  await viewer.byId('loop-drag-from').focus();
+  await viewer.key('ArrowLeft');
+  expect(await ends(), 'after an arrow').toEqual([0, last - 1]);
+  await viewer.keep('time-loop');
+  await viewer.give('loop-last', 6);
+  const six = [Math.max(0, last - 5), last];
+  expect(await ends()).toEqual(six);
+  await viewer.press('loop-all');
+  expect(await ends()).toEqual([0, last]);
+  await expect(viewer.byId('loop-last')).toHaveValue('0');
+  const [play, speed] = await Promise.all(['play', 'speed'].map((id) => viewer.byId(id).boundingBox()));
+  expect(speed.x - play.x - play.width, 'the speed is beside Play').toBeLessThan(12);
+});
+
+test.describe('in another time zone', () => {
+  test.use({ timezoneId: 'America/New_York' });
+  test('the title tells the local time', async ({ viewer, newest, times }) => {
+    const local = new Date(times.at(-1)).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit', timeZone: 'America/New_York' });
+    await expect(viewer.byId('title')).toContainText(new RegExp(`:\\d\\d UTC \\(([A-Z][a-z]+ \\d+, )?${local} E[DS]T\\)`));
+  });
 });
 
 test('frames between volumes are made, and the title says so', async ({ viewer, newest }) => {

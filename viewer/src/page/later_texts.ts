@@ -46,6 +46,7 @@ export const panelTexts = {
         several: 'A command draws one layer. Hide the others to copy one.',
         none: 'No layer is shown.',
     },
+    loopEnds: { from: 'Begin of the loop', to: 'End of the loop' },
     nyquist: (least: string, most: string) =>
         `Nyquist velocity ${least === most ? least : `${least.replace(/ .*/, '')} to ${most}`}`,
     reported: (trouble: string) => `The radar reports ${trouble}`,
@@ -164,6 +165,8 @@ export const panelTexts = {
         'scan-open': 'Cuts of this scan: angle, time, Nyquist velocity, moments, progress',
         play: 'Play or pause the loop (Space)',
         follow: 'Show each new sweep as it comes (L)',
+        speed: 'Frames a second',
+        'loop-last': 'Keep the loop to the newest volumes',
         'loop-from': 'Begin the loop at the shown time (<)',
         'loop-to': 'End the loop at the shown time (>)',
         'loop-all': 'Play all times',

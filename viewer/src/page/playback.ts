@@ -1,13 +1,14 @@
 // Steps and plays through the times, and follows the newest.
 
 import { CutNumber } from '../fields/sweep_choice';
-import { advanced, at, looped, nextOf, stepped } from '../time/player';
+import { advanced, at, dwellMs, looped, nextOf, stepped } from '../time/player';
 import { App } from './app';
 import { texts } from './texts';
 
 export class Playback {
     framesASecond = 4;
     private timer = 0;
+    private changedAtMs = 0; // when playback went to another time or sweep
 
     constructor(private app: App) {}
 
@@ -59,6 +60,7 @@ export class Playback {
     private showRepeat(sweepNumber: CutNumber): void {
         const { app } = this;
         app.state.layers = { ...app.state.layers, sweepNumber };
+        this.changedAtMs = performance.now();
         app.changed();
     }
     follow(): void {
@@ -89,7 +91,7 @@ export class Playback {
         // A loop of one volume begins again with the first sweep.
         else if (isReady && app.nextCut === 'first' && nextOf(app.player) === null) this.showRepeat('first');
         const { player, waitsFor } =
-            isReady && repeat === undefined
+            isReady && repeat === undefined && performance.now() - this.changedAtMs >= dwellMs(app.player)
                 ? advanced(app.player, (time) => app.showing.ahead.has(time))
                 : { player: app.player, waitsFor: null };
         if (app.showing.coming > 0) app.say(texts.waiting(app.timeline.now ?? ''), false);
@@ -105,15 +107,22 @@ export class Playback {
                 );
         } else if (player !== app.player) {
             app.player = player;
+            this.changedAtMs = performance.now();
             void app.showing.showTime();
         }
         window.clearTimeout(this.timer);
         this.timer = window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
     }
-    // Sets one end of the loop to the current time. With null, ends the loop, so that all times are played.
-    setLoop(end: 'from' | 'to' | null): void {
+    // Sets one end of the loop to a time of the timeline.
+    setLoop(end: 'from' | 'to', index = this.app.player.at): void {
         const { app } = this;
-        app.player = end ? looped(app.player, end) : { ...app.player, loop: null };
+        app.timeline.last = 0;
+        app.player = looped(app.player, end, index);
         app.tell('time');
+    }
+    // Keeps playback to so many of the newest volumes; 0 plays all times.
+    playLast(count: number): void {
+        this.app.timeline.playLast(count);
+        this.app.tell('time');
     }
 }

@@ -8,6 +8,19 @@ export function span(seconds: number): string {
     const [minutes, hours] = [seconds / 60, seconds / 3600];
     return minutes < 90 ? `${Math.max(0, Math.round(minutes))} min` : `${Math.round(hours)} h`;
 }
+// Returns a time in the time zone of the browser, with its date if that is another than in UTC; empty in UTC itself.
+export function localText(timeMs: number): string {
+    const time = new Date(timeMs);
+    if (time.getTimezoneOffset() === 0) return '';
+    const date = time.getDate() === time.getUTCDate() ? {} : ({ month: 'short', day: 'numeric' } as const);
+    return time.toLocaleString('en-US', {
+        ...date,
+        hour: '2-digit',
+        minute: '2-digit',
+        hourCycle: 'h23',
+        timeZoneName: 'short',
+    });
+}
 export const newsS = 48 * 3600; // a date tells older data better than an age
 // Tells the age of data, or the date of old data. `time` is in ISO form.
 export function age(seconds: number, time: string): string {
@@ -91,6 +104,10 @@ export const texts = {
     earlier: 'Earlier volume',
     later: 'Later volume',
     speed: 'Frames a second',
+    aSecond: (rate: number) => `${rate}/s`,
+    last: 'Play',
+    lastAll: 'all times',
+    lastOf: (count: number) => `last ${count}`,
     loopFrom: 'Loop from here',
     loopTo: 'Loop to here',
     loopAll: 'Loop over all',

@@ -1,7 +1,19 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { advanced, at, followed, looped, nearestTime, nextOf, stepped, stopped, withTimes } from './player';
+import {
+    advanced,
+    at,
+    dwellMs,
+    followed,
+    loopEnds,
+    looped,
+    nearestTime,
+    nextOf,
+    stepped,
+    stopped,
+    withTimes,
+} from './player';
 
 const times = ['a', 'b', 'c', 'd'];
 
@@ -43,6 +55,17 @@ test('playback stays in its loop, and enters the loop from outside', () => {
     assert.equal(advanced(closed, () => true).player.at, 1);
     assert.equal(advanced({ ...closed, at: 3 }, () => true).player.at, 1);
     assert.equal(nextOf(closed, 2), 2);
+});
+
+test('the last time of a loop stays longer, and any end of a loop can be set', () => {
+    const player = looped(withTimes(stopped, times), 'to', 2);
+    assert.deepEqual([player.loop, loopEnds(player)], [{ from: 'a', to: 'c' }, [0, 2]]);
+    assert.deepEqual(
+        [0, 1, 2].map((at) => dwellMs({ ...player, at })),
+        [0, 0, 1500],
+    );
+    assert.equal(dwellMs({ ...player, at: 0, loop: { from: 'a', to: 'a' } }), 0, 'nothing is played');
+    assert.equal(looped(player, 'to', 3).loop, null, 'a loop of all times is none');
 });
 
 test('a loop over older times is kept until they have come, and is dropped when they are evicted', () => {

@@ -51,11 +51,18 @@ export function stepped(player: PlayerState, by: number): PlayerState {
     return { ...at(player, player.at + by), isPlaying: false };
 }
 
+// Returns the indexes of the ends of the loop; without a loop, of all times. The first is -1 if the loop has none.
+export function loopEnds({ times, loop }: PlayerState): [number, number] {
+    if (!loop) return [0, times.length - 1];
+    const last = times.reduce((found, time, i) => (time <= loop.to ? i : found), -1);
+    return [times.findIndex((time) => time >= loop.from), last];
+}
+
 // Returns the index that is played after `by` steps, where the beginning of the loop follows its end. Outside of the
 // loop, returns its beginning. Returns null if the loop has fewer than two times.
-export function nextOf({ times, at, loop }: PlayerState, by = 1): number | null {
-    const first = loop ? times.findIndex((time) => time >= loop.from) : 0;
-    const last = loop ? times.reduce((found, time, i) => (time <= loop.to ? i : found), -1) : times.length - 1;
+export function nextOf(player: PlayerState, by = 1): number | null {
+    const { at } = player;
+    const [first, last] = loopEnds(player);
     const count = last - first + 1;
     if (first < 0 || count < 2) return null;
     if (at < first || at > last) return first;
@@ -74,13 +81,21 @@ export function advanced(
     return { player: { ...player, at: next, follows: false }, waitsFor: null };
 }
 
-// Moves one end of the loop to the current time. If the ends would cross, moves both ends to the current time.
-export function looped(player: PlayerState, end: 'from' | 'to'): PlayerState {
-    const now = player.times[player.at];
+const lastMs = 1500;
+
+// Returns how long playback shows the current time at least. This is longer for the last time before playback begins
+// again, so that the eye takes in how far the storms have come.
+export const dwellMs = (player: PlayerState): number => ((nextOf(player) ?? Infinity) < player.at ? lastMs : 0);
+
+// Moves one end of the loop to a time. If the ends would cross, moves both ends to this time. A loop of all times is
+// none, so that later times are played, too.
+export function looped(player: PlayerState, end: 'from' | 'to', index = player.at): PlayerState {
+    const now = player.times[index];
     if (now === undefined) return player;
     const loop = { from: player.times[0]!, to: player.times[player.times.length - 1]!, ...player.loop, [end]: now };
     if (loop.from > loop.to) loop.from = loop.to = now;
-    return { ...player, loop };
+    const isAll = loop.from <= player.times[0]! && loop.to >= player.times[player.times.length - 1]!;
+    return { ...player, loop: isAll ? null : loop };
 }
 
 export function followed(player: PlayerState, newest = player.times.length - 1): PlayerState {

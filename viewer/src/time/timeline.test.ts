@@ -64,6 +64,18 @@ test('a volume with a wrong time in the future is not followed (2026-11-28: it s
     assert.equal(made(['12:00:00'], 0, true, '10:15:00').now, at('12:00:00'), 'it is all that there is');
 });
 
+test('a loop of the last volumes moves on with newer volumes', () => {
+    const timeline = made(['10:00:00', '10:05:00', '10:10:00', '10:15:00', '23:59:59.5'], 60);
+    timeline.playLast(2);
+    assert.deepEqual(timeline.player.loop, { from: at('10:10:00'), to: at('10:15:00') });
+    timeline.take(['10:05:00', '10:10:00', '10:15:00', '10:20:00'].map(at));
+    assert.deepEqual(timeline.player.loop, { from: at('10:15:00'), to: at('10:20:00') });
+    timeline.playLast(12);
+    assert.equal(timeline.player.loop?.from, at('10:05:00'), 'there are fewer');
+    timeline.playLast(0);
+    assert.equal(timeline.player.loop, null);
+});
+
 test('a loop without times is dropped (2026-11-28: playback stood still, and the page said that it plays)', () => {
     const timeline = made(['10:00:00', '10:05:00', '10:10:00', '10:15:00']);
     timeline.find(at('10:05:00'));

@@ -9,6 +9,7 @@ export const isAhead = (ageS: number): boolean => 1000 * ageS < -toleratedFuture
 export class Timeline {
     player: PlayerState;
     stored: string[] = []; // times of the domain's grids
+    last = 0; // playback keeps to this many of the newest stored times; 0: see PlayerState.loop
     private missing = new Set<string>(); // times without a grid
 
     // `betweenS` returns the seconds between frames that are made between volumes, or 0 without such frames.
@@ -48,6 +49,19 @@ export class Timeline {
         const betweenS = this.betweenS();
         const times = betweenS > 0 ? instantsBetween(stored, betweenS, this.missing) : stored;
         this.player = withTimes(this.player, times, this.newestOf(times));
+        this.loopLast();
+    }
+    // Makes playback keep to the newest times, also when newer times come; 0 plays all times.
+    playLast(count: number): void {
+        this.last = count;
+        this.player = { ...this.player, loop: null };
+        this.loopLast();
+    }
+    private loopLast(): void {
+        const newest = this.newestOf(this.stored);
+        if (this.last === 0 || newest < 0) return;
+        const from = this.stored[Math.max(0, newest + 1 - this.last)]!;
+        this.player = { ...this.player, loop: { from, to: this.stored[newest]! } };
     }
     follow(): void {
         this.player = followed(this.player, this.newestOf(this.player.times));

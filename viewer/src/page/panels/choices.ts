@@ -8,7 +8,7 @@ import { Drawing } from '../drawing';
 import { button, element, make, press, putOptions } from '../dom';
 import { FactsOfShown } from '../facts_of_shown';
 import { healthOf } from '../health';
-import { newsS, texts } from '../texts';
+import { localText, newsS, texts } from '../texts';
 import { addMoments } from './moment_choice';
 
 function putDomains(app: App): void {
@@ -48,6 +48,7 @@ function putTitle(app: App, facts: FactsOfShown): void {
         .toISOString()
         .replace('T', ' ')
         .replace(/\.\d+Z/, ' UTC');
+    const local = localText(grid.timeMs);
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [
         titleOf(moment),
@@ -56,7 +57,10 @@ function putTitle(app: App, facts: FactsOfShown): void {
     ];
     // Put the age into a span of its own, which a saved picture leaves out.
     const age = make('span', {}, ageS >= 0 && ageS < newsS ? `  ${texts.start.age(ageS, '')}` : '');
-    element('title').replaceChildren([names, place, time, ...notes].filter(Boolean).join('  '), age);
+    element('title').replaceChildren(
+        [names, place, local === '' ? time : `${time} (${local})`, ...notes].filter(Boolean).join('  '),
+        age,
+    );
     document.title = `${domain} ${moment} ${time} · ${texts.title}`;
 }
 

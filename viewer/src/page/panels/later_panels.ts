@@ -13,6 +13,7 @@ import { addEditor } from './edit_colors';
 import { Hover } from './hover';
 import { LayersPanel } from './layers_panel';
 import { addLook } from './look';
+import { addLoopEnds } from './loop_ends';
 import { Reader } from './reader';
 import { addScale } from './scale_mark';
 import { ScanPanel } from './scan_panel';
@@ -42,6 +43,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     new ToolsPanel(app, drawing, pointers, facts).begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);
     new ScanPanel(app, drawing).begin(keys);
+    addLoopEnds(app);
     new StationLine(app, drawing, facts).begin();
     addScale(app, drawing);
     addTilts(app, drawing, keys);

@@ -1,6 +1,7 @@
-// Fills the foot of the page: a slider over the times of the domain, and buttons to play and to follow the newest. Adds
-// speed and loops to the settings.
+// Fills the foot of the page: a slider over the times of the domain, buttons to play and to follow the newest, and the
+// speed. Adds loops to the settings.
 
+import { loopEnds } from '../../time/player';
 import { App } from '../app';
 import { button, element, labeled, make } from '../dom';
 import { Keys } from '../keys';
@@ -8,16 +9,17 @@ import { texts } from '../texts';
 
 const speeds = [1, 2, 4, 8, 15, 30];
 const betweens = [0, 30, 60, 120];
+const lasts = [0, 6, 12, 24, 48];
 
-function putLoop(app: App, slider: HTMLInputElement): void {
-    const { times, loop } = app.player;
-    const shareOf = (wanted: string) => {
-        const index = times.findIndex((time) => time >= wanted);
-        return (100 * (index < 0 ? times.length - 1 : index)) / Math.max(1, times.length - 1);
-    };
-    slider.style.setProperty('--loop-from', loop ? `${shareOf(loop.from)}%` : '0%');
-    slider.style.setProperty('--loop-to', loop ? `${shareOf(loop.to)}%` : '100%');
-    element('loop-all').hidden = loop === null;
+function putLoop({ player }: App): void {
+    const { style } = element('track');
+    loopEnds(player).forEach((index, i) =>
+        style.setProperty(
+            ['--loop-from', '--loop-to'][i] ?? '',
+            String(Math.max(0, index) / Math.max(1, player.times.length - 1)),
+        ),
+    );
+    element('loop-all').hidden = player.loop === null;
 }
 
 function putTimes(app: App): void {
@@ -26,9 +28,10 @@ function putTimes(app: App): void {
     slider.max = String(Math.max(0, player.times.length - 1));
     slider.value = String(Math.max(0, player.at));
     slider.setAttribute('aria-valuetext', player.times[player.at] ?? '');
-    putLoop(app, slider);
+    putLoop(app);
     element('play').textContent = player.isPlaying ? texts.pause : texts.play;
     element<HTMLSelectElement>('between').value = String(app.state.betweenS);
+    element<HTMLSelectElement>('loop-last').value = String(app.timeline.last);
 }
 
 function select(
@@ -37,29 +40,40 @@ function select(
     options: [number, string][],
     chosen: number,
     take: (value: number) => void,
-): HTMLLabelElement {
-    const made = make('select', { id });
+): HTMLSelectElement {
+    const made = make('select', { id, 'aria-label': name });
     for (const [value, shown] of options) made.add(new Option(shown, String(value), false, value === chosen));
     made.addEventListener('change', () => take(Number(made.value)));
-    return labeled(name, made);
+    return made;
 }
 
 function addPlaying(app: App): void {
-    const rates = speeds.map((rate): [number, string] => [rate, String(rate)]);
     const { betweenS } = app.state;
     const steps = [...new Set([...betweens, betweenS])].sort((a, b) => a - b);
     const everys = steps.map((seconds): [number, string] => [
         seconds,
         seconds === 0 ? texts.betweenOff : texts.betweenEvery(seconds),
     ]);
+    const rates = speeds.map((rate): [number, string] => [rate, texts.aSecond(rate)]);
+    const { playback } = app;
+    const counts = lasts.map((count): [number, string] => [count, count === 0 ? texts.lastAll : texts.lastOf(count)]);
+    element('play').after(
+        select('speed', texts.speed, rates, playback.framesASecond, (rate) => (playback.framesASecond = rate)),
+    );
     element('playing').append(
-        select('speed', texts.speed, rates, app.playback.framesASecond, (rate) => (app.playback.framesASecond = rate)),
-        select('between', texts.between, everys, betweenS, (seconds) => void app.playback.setBetween(seconds)),
+        labeled(
+            texts.last,
+            select('loop-last', texts.last, counts, 0, (count) => playback.playLast(count)),
+        ),
+        labeled(
+            texts.between,
+            select('between', texts.between, everys, betweenS, (seconds) => void playback.setBetween(seconds)),
+        ),
     );
     element('loops').append(
         button('loop-from', texts.loopFrom, () => app.playback.setLoop('from')),
         button('loop-to', texts.loopTo, () => app.playback.setLoop('to')),
-        button('loop-all', texts.loopAll, () => app.playback.setLoop(null)),
+        button('loop-all', texts.loopAll, () => app.playback.playLast(0)),
     );
 }
 
