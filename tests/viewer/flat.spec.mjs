@@ -115,6 +115,15 @@ test('a list names each cut, and keys and buttons change the tilt', async ({ vie
   await viewer.settled(() => viewer.key('ArrowDown'));
   await viewer.settled(() => viewer.byId('tilt-lower').click());
   expect(await chosen(), 'two tilts up and down again').toBe(first);
+  const highest = cuts.reduce((best, row) => (row.elevation_deg > best.elevation_deg ? row : best));
+  await viewer.press('scan-open');
+  const ofHighest = viewer.byId(`cut-${highest.sweep}`);
+  await expect(ofHighest).toHaveAttribute('aria-pressed', 'false');
+  await viewer.settled(() => ofHighest.click());
+  await expect(ofHighest, 'the list of the scan shows a cut, too').toHaveAttribute('aria-pressed', 'true');
+  await expect(told).toContainText(highest.start.slice(11, 19));
+  await expect(viewer.byId('tilt-higher'), 'there is no higher tilt').toHaveAttribute('aria-disabled', 'true');
+  await viewer.press('scan-open');
   const other = texts.find((text) => Number.parseFloat(text) === Number.parseFloat(first) && text !== first);
   if (!other) return;
   await viewer.settled(() => list.selectOption({ label: other }));

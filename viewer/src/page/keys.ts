@@ -7,11 +7,11 @@ import { Drawing } from './drawing';
 const keyStep = 20; // an arrow acts like a drag by this many pixels
 const farther = 2; // factor for keys that move the scene
 
-// Returns true if the control with the focus has no use for a key. Arrows scroll a panel, unless it is the one of 2D.
+// Returns true if the control with the focus has no use for a key. Arrows scroll a panel, unless it chooses a tilt.
 function isUnused({ target, key }: KeyboardEvent): boolean {
     const isButton = target instanceof HTMLButtonElement;
     const isControl = isButton || (target instanceof HTMLInputElement && ['checkbox', 'range'].includes(target.type));
-    const isArrow = isButton && key.startsWith('Arrow') && target.closest('#sight') !== null;
+    const isArrow = isButton && key.startsWith('Arrow') && target.closest('#sight, #scan') !== null;
     return isControl && (key === 'Escape' || isArrow || (key.length === 1 && key !== ' '));
 }
 

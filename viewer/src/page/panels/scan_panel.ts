@@ -9,10 +9,12 @@ import { Keys } from '../keys';
 import { panelTexts } from '../later_texts';
 import { cutCells, progressOf, waveformOf } from '../scan';
 import { openSettings } from './look';
+import { cutButton } from './tilts';
 
 const words = panelTexts.scan;
 
 export class ScanPanel {
+    private puts: (() => void)[] = []; // press the button of the shown cut
     private box = make('section', { id: 'scan', hidden: '', 'aria-label': words.title });
 
     constructor(
@@ -27,6 +29,9 @@ export class ScanPanel {
         for (const other of ['open', 'layers-open']) element(other).addEventListener('click', () => this.open(false));
         keys.add('Escape', () => this.open(false));
         this.app.on(['shown', 'units'], () => void this.put());
+        this.app.on('view', () => {
+            for (const put of this.puts) put();
+        });
     }
 
     private open(isOpen: boolean): void {
@@ -72,10 +77,16 @@ export class ScanPanel {
             this.box.append(make('progress', { max: '1', value: String(share), 'aria-label': text }));
         const head = make('tr', {}, ...words.head.map((name) => make('th', { scope: 'col' }, name)));
         const { units } = this.app.state;
+        this.puts = [];
         const body = rows.map((row) => {
             const cells = cutCells(row, rows, (mps) => valueText(mps, 'm/s', units, 1));
             const line = make('tr', {}, ...cells.map((cell) => make('td', {}, cell)));
             line.cells[1]!.title = waveformOf(row, rows)[1];
+            const choice = cutButton(this.app, row, rows);
+            if (choice) {
+                line.cells[0]!.replaceChildren(choice.shows);
+                this.puts.push(choice.put);
+            }
             return line;
         });
         this.box.append(make('table', {}, make('thead', {}, head), make('tbody', {}, ...body)));

@@ -4,7 +4,7 @@ import { cutOf, isChosen, nextTilt, tiltsOf } from '../../fields/sweep_choice';
 import { lowestTiltDeg, sweepMoment } from '../../scene/layers';
 import { SweepRow } from '../../wire/api';
 import { App } from '../app';
-import { element, labeledButton, make, putOptions } from '../dom';
+import { button, element, labeledButton, make, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
 import { cutText } from '../layer_maker';
@@ -27,6 +27,22 @@ function show(app: App, row: SweepRow): void {
         sweepNumber: isChosen(row, momentOf(app)) ? null : row.sweep,
     };
     app.changed();
+}
+
+// Returns a button with which the user shows a cut, or null if the cut lacks the shown moment. Also returns a function
+// that presses the button if the cut is shown.
+export function cutButton(
+    app: App,
+    row: SweepRow,
+    rows: SweepRow[],
+): { shows: HTMLButtonElement; put: () => void } | null {
+    const moment = momentOf(app);
+    if (tiltsOf([row], moment).length === 0) return null;
+    const shows = button(`cut-${row.sweep}`, words.at(row.elevation_deg), () => show(app, row));
+    shows.setAttribute('aria-label', cutText(row, rows));
+    const put = () => shows.setAttribute('aria-pressed', String(wantedCut(app, rows)?.sweep === row.sweep));
+    put();
+    return { shows, put };
 }
 
 // Makes a list of cuts show a cut that the user chooses.
