@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "render/view/fitted_camera.h"
+#include "stormcellar/cache/grid_file.h"
 #include "tests/web/served_grids.h"
 #include "web/data/grids/packed_grid.h"
 
@@ -165,6 +167,28 @@ TEST_F(Api, ProbesGiveTheGridsOwnCells) {
         }
         ++levels;
     }
+}
+
+// The camera is that of a frame of this size: each number equals that of fit_view().
+TEST_F(Api, AViewIsTheOneThatAFrameHas) {
+    const std::string path = ServedGrids::noon_path;
+    const auto read = json_of(served_.get(path + "/view?width=900&height=600"));
+    const auto file = cache::GridFile::open(
+        served_.store().list("KBGM", level2::Moment::ref, std::nullopt, std::nullopt)->at(1).path);
+    ASSERT_TRUE(file);
+    const render::EchoOutline outline(file->view(), level2::Moment::ref);
+    const render::FittedView fitted = render::fit_view(outline, {}, 900, 600);
+    EXPECT_EQ(read["time"], "2024-11-22T12:00:00Z");
+    EXPECT_EQ(read["camera"]["azimuth_deg"], fitted.camera.azimuth_deg);
+    EXPECT_EQ(read["camera"]["tilt_deg"], fitted.camera.tilt_deg);
+    ASSERT_TRUE(fitted.camera.eye);
+    EXPECT_EQ(read["camera"]["place_m"][0], fitted.camera.eye->x_m);
+    EXPECT_EQ(read["focus_m"][1], fitted.focus.y_m);
+    EXPECT_EQ(read["distance_m"], fitted.distance_m);
+    EXPECT_EQ(read["exaggeration"], fitted.vertical_exaggeration);
+    EXPECT_EQ(read["has_echo"], true);
+    EXPECT_NE(read["camera"], json_of(served_.get(path + "/view?width=300&height=900"))["camera"]);
+    EXPECT_EQ(served_.get(path + "/view?width=0").status, 400u);
 }
 
 TEST_F(Api, AmbiguousCellsKeepTheirStateInAnswers) {

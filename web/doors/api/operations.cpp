@@ -45,6 +45,9 @@ constexpr std::array profile_parameters{
     ApiParameter{"count", "how many points, 2 to 1024; default 101", ApiKind::whole}};
 constexpr std::array netcdf_parameters{
     ApiParameter{"deflate", "compression of the file, 0 to 9; default 1", ApiKind::whole}};
+constexpr std::array view_parameters{
+    ApiParameter{"width", "of the picture in pixels, 16 to 8192; default 796", ApiKind::whole},
+    ApiParameter{"height", "of the picture in pixels, 16 to 8192; default 532", ApiKind::whole}};
 constexpr std::array map_parameters{
     ApiParameter{"west", "degrees", ApiKind::number, true},
     ApiParameter{"south", "degrees", ApiKind::number, true},
@@ -153,6 +156,9 @@ constexpr auto operations_table = std::to_array<ApiOperation>({
      bytes_type,
      grid_errors,
      api_grid_file},
+    {"view", "/api/v1/grids/{domain}/{moment}/{time}/view",
+     "The camera, exaggeration and opacity with which stormcellar frame draws the grid.",
+     view_parameters, json_type, grid_errors, api_view},
     {"between",
      "/api/v1/between/{domain}/{moment}/{time}",
      "A grid for an instant between volumes, made when it is asked for, in the packed form.",

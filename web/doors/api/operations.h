@@ -59,6 +59,7 @@ Answer api_probe(const ApiCall& call);
 Answer api_profile(const ApiCall& call);
 Answer api_netcdf(const ApiCall& call);
 Answer api_grid_file(const ApiCall& call);
+Answer api_view(const ApiCall& call);
 Answer api_between(const ApiCall& call);
 Answer api_regions(const ApiCall& call);
 Answer api_region_packed(const ApiCall& call);
