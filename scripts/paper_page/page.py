@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from .claims import BY_NUMBER, CLAIMS, SECTIONS, TITLE
 
-CANNOT = 'cannot be compared: '
+NOT_COMPARED = 'not compared: '
 NOTHING = '-'
 WIDTH = 128
 
@@ -47,14 +47,14 @@ def status_of_value(claim, text):
 def cells_of(claim, ours, facts):
     """Returns the cells `now` and `status` of a row."""
     if claim.how == 'none':
-        return ours.text or NOTHING, CANNOT + claim.why.format(**facts)
+        return ours.text or NOTHING, NOT_COMPARED + claim.why.format(**facts)
     if claim.how in ('more', 'less'):
         if ours.value is None:
-            return NOTHING, CANNOT + (ours.text or 'it was not run')
+            return NOTHING, NOT_COMPARED + (ours.text or 'it was not run')
         text = shown(ours.value)
         return f'{text} {claim.unit}'.strip() + (f' ({ours.text})' if ours.text else ''), status_of_value(claim, text)
     if ours.does is None:
-        return NOTHING, CANNOT + (ours.text or 'it was not run')
+        return NOTHING, NOT_COMPARED + (ours.text or 'it was not run')
     good = 'beaten' if claim.how == 'betters' else 'met'
     return ('yes' if ours.does else 'no') + (f': {ours.text}' if ours.text else ''), good if ours.does else 'not met'
 
@@ -84,7 +84,7 @@ def rows_of(text):
 def expected_status(claim, now):
     """Returns the status, or its beginning, that follows from the other cells of the row."""
     if claim.how == 'none' or now == NOTHING:
-        return CANNOT
+        return NOT_COMPARED
     if claim.how in ('more', 'less'):
         return status_of_value(claim, now.split()[0])
     good = 'beaten' if claim.how == 'betters' else 'met'
@@ -111,14 +111,14 @@ def faults_of(text):
             faults.append(f'{claim.number}: "{claimed}, {paper}" and not "{claim.text}, {claim.paper}"')
             continue
         right = expected_status(claim, now)
-        good = len(status) > len(right) and status.startswith(right) if right == CANNOT else status == right
+        good = len(status) > len(right) and status.startswith(right) if right == NOT_COMPARED else status == right
         if not good:
             faults.append(f'{claim.number}: the status is "{status}", and should be "{right}"')
     return faults
 
 
 def counts_of(text):
-    counts = {'beaten': 0, 'met': 0, 'not met': 0, 'cannot be compared': 0}
+    counts = {'beaten': 0, 'met': 0, 'not met': 0, 'not compared': 0}
     for cells in rows_of(text).values():
         counts[re.split(r': | \(', cells[0][-1])[0]] += 1
     return counts
@@ -168,7 +168,7 @@ def page(results, commands, facts, pictures, mode):
         '',
         *paragraph(
             f'**{counts["beaten"]} beaten, {counts["met"]} met, {counts["not met"]} not met, '
-            f'{counts["cannot be compared"]} cannot be compared.** The status has a ratio in brackets, which is above 1 if ours is '
+            f'{counts["not compared"]} not compared.** The ratio in brackets is above 1 if ours is '
             'better: a claim is *beaten* above 1.05, and *met* from 0.95 on. A claim without a number is *met* if we do the same; '
             'a trouble is *beaten* if we do not have it. The run used the commands below the tables, and each benchmark also had '
             'the options `--data ../shared/data --json`.'),
