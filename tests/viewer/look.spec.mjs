@@ -118,6 +118,22 @@ test('mouse, keys and fingers move the view', async ({ viewer, server: { station
   await viewer.changes('the compass turns north up', 'azimuth', () => viewer.press('compass'), (before, after) => before !== 180 && after === 180);
 });
 
+// The server fits the view. From the first view, a storm covers few pixels of the picture.
+test('Storms looks at the echo as frame does', async ({ viewer, server: { station } }) => {
+  await viewer.resize(796, 532);
+  await viewer.open(`domain=${station}&moment=REF&least=30`);
+  const before = await viewer.number('zoom');
+  await viewer.settled(() => viewer.press('open'));
+  await viewer.changes('the button zooms to the storms', 'zoom', () => viewer.press('view-fitted'), (_, after) => after > 1.2 * before);
+  const fitted = await viewer.told('look-at-km');
+  await viewer.settled(() => viewer.key('0'));
+  await viewer.settled(() => viewer.key('z'));
+  await expect.poll(() => viewer.told('look-at-km'), 'Z does so, too').toBe(fitted);
+  await viewer.settled(() => viewer.key('2'));
+  await viewer.settled(() => viewer.key('z'));
+  expect(await viewer.number('tilt'), 'from 2D, it leads to 3D').toBeGreaterThan(30);
+});
+
 // 2026-11-28: nothing led back from a view without echo, not even choosing the radar again.
 test('Reset view leads back to the first view', async ({ page, viewer, server: { station } }) => {
   await viewer.resize(796, 532);

@@ -2,6 +2,7 @@
 //
 // Errors: an ApiError with status and text if the server refuses, and a TypeError if it does not answer.
 
+import { FittedView } from '../camera/fitted';
 import { ColorTable } from './color_tables';
 import { isRegion, sidesOf } from './region';
 
@@ -230,6 +231,17 @@ export function packed(
     // again and bricks of two grids do not fit together.
     const options: RequestInit = { ...(query['id'] === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
+}
+// Returns the view that the server fits to the echo of a stored grid, for a picture of this size in pixels.
+export function fittedView(
+    domain: string,
+    moment: string,
+    time: string,
+    width: number,
+    height: number,
+): Promise<FittedView> {
+    const query = new URLSearchParams({ width: String(width), height: String(height) });
+    return told(`${gridPath(domain, moment, time)}/view?${query}`);
 }
 // Returns a whole grid that the server makes on request, for a region or for an instant between volumes.
 export function packedBetween(domain: string, moment: string, time: string): Promise<ArrayBuffer> {

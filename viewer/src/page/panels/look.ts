@@ -1,5 +1,7 @@
 // Adds the settings of the view: colors, threshold, opacity, exaggeration of heights, and camera.
 
+import { cameraOfFitted } from '../../camera/fitted';
+import { fittedView, isRegion } from '../../wire/api';
 import { valueText } from '../../tables/units';
 import { usualRungs } from '../../renderer/ladder';
 import { App } from '../app';
@@ -68,6 +70,31 @@ function addQuality(app: App): void {
     put();
 }
 
+// Returns true if the shown grid is one that the server keeps, so that it can fit a view to it.
+function isStored({ shown }: App): boolean {
+    return shown !== null && !shown.isBetween && !isRegion(shown.domain);
+}
+
+// Looks at the storms of the shown grid as `stormcellar frame` does.
+async function fitStorms(app: App, drawing: Drawing): Promise<void> {
+    const { shown } = app;
+    if (!shown || !isStored(app)) return;
+    app.showFlat(false);
+    const geometry = drawing.geometry();
+    if (!geometry) return;
+    const { width, height } = geometry;
+    try {
+        const fitted = await fittedView(shown.domain, shown.moment, shown.time, width, height);
+        if (app.shown?.domain !== shown.domain || app.state.isFlat) return;
+        app.state.exaggeration = fitted.exaggeration;
+        app.state.opacity = fitted.opacity;
+        app.moved(cameraOfFitted(fitted, geometry.box, width, height));
+        app.changed();
+    } catch (error) {
+        app.fail(error);
+    }
+}
+
 export function openSettings(drawing: Drawing, isOpen: boolean): void {
     element('settings').hidden = !isOpen;
     element('open').setAttribute('aria-expanded', String(isOpen));
@@ -86,6 +113,12 @@ export function addLook(app: App, drawing: Drawing, keys: Keys, editing: TableEd
     for (const view of ['top', 'south', 'oblique'] as const) {
         element('views').append(button(`view-${view}`, panelTexts[view], () => keys.look(view)));
     }
+    const fit = button('view-fitted', panelTexts.fitted, () => void fitStorms(app, drawing));
+    element('views').append(fit);
+    keys.add('z', () => void fitStorms(app, drawing));
+    const mayFit = () => (fit.disabled = !isStored(app));
+    app.on(['shown', 'view'], mayFit);
+    mayFit();
     element('views').append(button('perspective', panelTexts.perspective, () => keys.togglePerspective()));
     element('colors').addEventListener('change', (event) => {
         editing.choosePreset((event.target as HTMLSelectElement).value);
