@@ -134,6 +134,26 @@ test('Storms looks at the echo as frame does', async ({ viewer, server: { statio
   expect(await viewer.number('tilt'), 'from 2D, it leads to 3D').toBeGreaterThan(30);
 });
 
+// 2026-11-30: the first view showed the whole grid, in which storms were small, from far away.
+test('the first view suits the storms, and an address with a view stays', async ({ page, viewer, server: { station } }) => {
+  await viewer.resize(796, 532);
+  await viewer.goto(`domain=${station}&moment=REF`);
+  await viewer.drawn();
+  const view = async () => Promise.all(['azimuth', 'tilt', 'zoom', 'field-of-view', 'look-at-km', 'exaggeration'].map((name) => viewer.told(name)));
+  const first = await view();
+  expect(await viewer.number('zoom'), 'nearer than the whole grid').toBeGreaterThan(1.2);
+  const fitted = await page.evaluate(async (of) => (await fetch(`/api/v1/grids/${of}/REF/latest/view?width=796&height=532`)).json(), station);
+  expect(await viewer.number('tilt')).toBeCloseTo(fitted.camera.tilt_deg, 1);
+  expect(await viewer.number('exaggeration')).toBeCloseTo(fitted.exaggeration, 1);
+  await expect(viewer.byId('reset-view'), 'this is the first view').toBeHidden();
+  await viewer.settled(() => viewer.drag([250, 300], [40, 0]));
+  expect(await view()).not.toEqual(first);
+  await viewer.settled(() => viewer.key('0'));
+  expect(await view(), 'Reset view leads back to it').toEqual(first);
+  await viewer.open(`domain=${station}&moment=REF&zoom=3`);
+  expect(await viewer.number('zoom'), 'an address with a view').toBe(3);
+});
+
 // 2026-11-28: nothing led back from a view without echo, not even choosing the radar again.
 test('Reset view leads back to the first view', async ({ page, viewer, server: { station } }) => {
   await viewer.resize(796, 532);

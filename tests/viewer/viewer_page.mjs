@@ -14,6 +14,14 @@ export const chromiumOptions = {
 // A picture may take so long while the machine also compiles.
 const patience = 120_000;
 
+// Names the tilt of the usual view in an address that says nothing about the view. Otherwise the page would fit the view
+// to the storms.
+function withUsualView(view) {
+  const named = ['azimuth', 'tilt', 'zoom', 'field-of-view', 'look-at-km', 'exaggeration', 'opacity', 'view'];
+  const query = new URLSearchParams(view.replace(/^#/, ''));
+  return named.some((name) => query.has(name)) ? view : [view, 'tilt=60'].filter(Boolean).join('&');
+}
+
 export class ViewerPage {
   // `page` is Playwright's, and `address` is the server's, without a slash at its end.
   constructor(page, address) {
@@ -59,7 +67,7 @@ export class ViewerPage {
   // Opens the page again with a view, and waits for its picture, and for its panels.
   async open(view = '') {
     await this.page.goto('about:blank');
-    await this.goto(view);
+    await this.goto(withUsualView(view));
     await this.drawn();
     await this.until(() => document.documentElement.dataset.panels, null, patience);
   }
@@ -76,7 +84,7 @@ export class ViewerPage {
           addEventListener('hashchange', take, { once: true });
           location.hash = hash;
         }),
-      view,
+      withUsualView(view),
     );
     await this.drawn();
   }

@@ -5,6 +5,7 @@ import { addCompass } from './page/compass';
 import { element } from './page/dom';
 import { Drawing } from './page/drawing';
 import { FactsOfShown } from './page/facts_of_shown';
+import { Fitting } from './page/fitting';
 import { Keys } from './page/keys';
 import { Live } from './page/live';
 import { Budget, Loader } from './page/loader';
@@ -29,6 +30,7 @@ function begin(): void {
     const app = new App(new Loader(new Budget(stateOf(location.hash).memoryMib * 2 ** 20, mostTexels), mostTexels));
     const drawing = new Drawing(app, renderer, picture);
     const keys = new Keys(app, drawing);
+    new Fitting(app, picture);
     const facts = new FactsOfShown(app);
     const pointers = new Pointers(app, drawing);
     addChoices(app, drawing, facts);

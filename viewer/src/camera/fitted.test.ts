@@ -10,6 +10,7 @@ const fitted: FittedView = {
     focus_m: [20000, 30000, 4000],
     exaggeration: 3,
     opacity: 1,
+    has_echo: true,
 };
 
 // Returns the pixel at which the fitted camera, which has a place of its own, sees a point.

@@ -17,6 +17,7 @@ export interface FittedView {
     focus_m: Vec3; // the middle of the echo
     exaggeration: number;
     opacity: number;
+    has_echo: boolean;
 }
 
 export function cameraOfFitted(fitted: FittedView, box: Box, width: number, height: number): Camera {

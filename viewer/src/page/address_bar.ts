@@ -20,6 +20,13 @@ export function timeThatIsNone(hash = location.hash): string {
     return time !== '' && time !== 'latest' && stateOf(hash).time === 'latest' ? time.slice(0, 40) : '';
 }
 
+// Returns true if the address says how to look at the echo.
+export function namesView(hash = location.hash): boolean {
+    const query = new URLSearchParams(hash.slice(1));
+    const names = ['azimuth', 'tilt', 'zoom', 'field-of-view', 'look-at-km', 'exaggeration', 'opacity', 'view'];
+    return names.some((name) => query.has(name));
+}
+
 export class AddressBar {
     private timer = 0;
     private writtenAt = 0;

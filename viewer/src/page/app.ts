@@ -13,7 +13,7 @@ import { PlayerState, stopped } from '../time/player';
 import { Timeline, toleratedFutureMs } from '../time/timeline';
 import { Units } from '../tables/units';
 import { ApiError, Domain, domains, isRegion, region, tables } from '../wire/api';
-import { AddressBar, stateOfAddress, timeThatIsNone } from './address_bar';
+import { AddressBar, namesView, stateOfAddress, timeThatIsNone } from './address_bar';
 import { element } from './dom';
 import type { LayerMaker } from './layer_maker';
 import { Loader } from './loader';
@@ -48,6 +48,14 @@ export interface Shown {
     isBetween: boolean; // made between volumes
 }
 
+// How the page first looks at the echo of a domain.
+type Look = Pick<ViewState, 'camera' | 'exaggeration' | 'opacity'>;
+const usualLook: Look = {
+    camera: usualState.camera,
+    exaggeration: usualState.exaggeration,
+    opacity: usualState.opacity,
+};
+
 export class App {
     state: ViewState = stateOfAddress();
     domains: Domain[] = [];
@@ -80,6 +88,8 @@ export class App {
     askedMoment = ''; // moment of the last call of choose(); the server may not have it
     private askedDomain = '';
     unreadTime = timeThatIsNone(); // time parameter of the address if it is not a time
+    wantsFit = !namesView(); // the next picture may get a view that suits its storms (page/fitting.ts)
+    private first = usualLook; // the look in 3D to which resetView() leads back
     private otherStance: Stance | null = null; // of 3D while the page shows 2D, and of 2D while it shows 3D
     private heard = new Map<Happening, (() => void)[]>();
     private addressBar = new AddressBar(() => addressOf(this.state));
@@ -158,14 +168,20 @@ export class App {
     // Returns true if the camera and the heights are those with which the page first shows a grid.
     get isFirstView(): boolean {
         const { camera, exaggeration, isFlat } = this.state;
-        const isFirstHeight = isFlat || exaggeration === usualState.exaggeration;
+        const isFirstHeight = isFlat || exaggeration === this.first.exaggeration;
         return isFirstHeight && JSON.stringify(camera) === JSON.stringify(this.firstCamera);
     }
     private get firstCamera(): Camera {
-        return this.state.isFlat ? namedView(usualState.camera, 'top') : { ...usualState.camera };
+        return this.state.isFlat ? namedView(usualState.camera, 'top') : { ...this.first.camera };
+    }
+    // Takes a look that suits the next picture, unless the user has turned the camera meanwhile.
+    fit(look: Look): void {
+        if (this.state.isFlat || !this.isFirstView) return;
+        this.first = look;
+        Object.assign(this.state, look);
     }
     resetView(): void {
-        if (!this.state.isFlat) this.state.exaggeration = usualState.exaggeration;
+        if (!this.state.isFlat) this.state.exaggeration = this.first.exaggeration;
         this.moved(this.firstCamera);
         this.changed();
     }
@@ -195,6 +211,7 @@ export class App {
         if (next.domain === '' && this.domains.length > 1) return this.openMap();
         if (!this.isOnMap && unreadTime === '' && addressOf(next) === addressOf(this.state)) return;
         [this.state, this.unreadTime] = [next, unreadTime];
+        [this.wantsFit, this.first] = [!namesView(hash), usualLook];
         this.otherStance = null;
         this.tell('units');
         this.player = { ...this.player, follows: next.time === 'latest', isPlaying: false };
@@ -285,6 +302,11 @@ export class App {
 
     async chooseDomain(domain: string): Promise<void> {
         this.player = { ...stopped };
+        if (!this.state.isFlat && this.isFirstView) {
+            Object.assign(this.state, usualLook);
+            this.wantsFit = true;
+        }
+        this.first = usualLook;
         Object.assign(this.state, elsewhere(this.state));
         this.otherStance &&= elsewhere(this.otherStance);
         await this.choose(domain, this.state.moment);
