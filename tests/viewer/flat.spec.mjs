@@ -177,11 +177,11 @@ repeated('a loop shows repeated cuts in order of time', async ({ viewer }) => {
   await viewer.until(() => document.getElementById('times').max === '1');
   const newest = await told();
   const back = [];
-  for (let i = 0; i < 2; ++i) {
+  for (let i = 0; i < 3; ++i) {
     await viewer.settled(() => viewer.key('ArrowLeft'));
     back.push(await told());
   }
-  expect(back, 'the last repeat comes first on the way back').toEqual(['12:41:39', '12:38:48']);
+  expect(back, 'the last repeat comes first on the way back').toEqual(['12:41:39', '12:38:48', '12:38:48']);
   const link = await viewer.page.evaluate(() => location.hash.slice(1));
   await viewer.settled(() => viewer.key('ArrowRight'));
   expect(await told()).toBe(back[0]);

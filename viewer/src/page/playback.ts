@@ -34,7 +34,10 @@ export class Playback {
         const { app } = this;
         app.miss('');
         if (this.stepWithin(by)) return;
+        const before = app.player.at;
         app.player = stepped(app.player, by);
+        // At the first and the last time, keep the sweep.
+        if (app.player.at === before) app.nextCut = undefined;
         void app.showing.showTime(undefined, by);
     }
     // Shows the next sweep of the shown tilt in the shown volume, in 2D, and stops playback and following. Returns false
