@@ -14,8 +14,8 @@ export const chromiumOptions = {
 // A picture may take so long while the machine also compiles.
 const patience = 120_000;
 
-// Names the tilt of the usual view in an address that says nothing about the view. Otherwise the page would fit the view
-// to the storms.
+// Names the tilt of the usual view in an address that says nothing about the view. Otherwise the page would fit the
+// view to the storms.
 function withUsualView(view) {
   const named = ['azimuth', 'tilt', 'zoom', 'field-of-view', 'look-at-km', 'exaggeration', 'opacity', 'view'];
   const query = new URLSearchParams(view.replace(/^#/, ''));

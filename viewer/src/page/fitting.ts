@@ -2,9 +2,9 @@
 // asks the server for the view while the grid is on its way, and waits for it only for a short time, so that a slow
 // answer does not hold back the first picture.
 
-import { FittedView, cameraOfFitted } from '../camera/fitted';
+import { cameraOfFitted } from '../scene/fitted';
 import { boxOf } from '../scene/grid_box';
-import { fittedView, isRegion } from '../wire/api';
+import { FittedView, fittedView, isRegion } from '../wire/api';
 import { App, Shown } from './app';
 import { pixelRatio } from './dom';
 

@@ -317,8 +317,8 @@ export class LayerMaker {
         const { shown } = this.app;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
-    // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted one. In 2D, they are
-    // shown one after another. Returns null in 3D, or if the user has chosen another kind of cut.
+    // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted one. In 2D, they
+    // are shown one after another. Returns null in 3D, or if the user has chosen another kind of cut.
     repeats(): { numbers: CutNumber[]; at: number } | null {
         const { shown, state } = this.app;
         const { sweepDeg, sweepNumber } = state.layers;

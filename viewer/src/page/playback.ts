@@ -40,8 +40,8 @@ export class Playback {
         if (app.player.at === before) app.nextCut = undefined;
         void app.showing.showTime(undefined, by);
     }
-    // Shows the next sweep of the shown tilt in the shown volume, in 2D, and stops playback and following. Returns false
-    // if there is no other sweep.
+    // Shows the next sweep of the shown tilt in the shown volume, in 2D, and stops playback and following. Returns
+    // false if there is no other sweep.
     private stepWithin(by: 1 | -1): boolean {
         const { app } = this;
         const number = this.nextRepeat(by);

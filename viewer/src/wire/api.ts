@@ -2,7 +2,6 @@
 //
 // Errors: an ApiError with status and text if the server refuses, and a TypeError if it does not answer.
 
-import { FittedView } from '../camera/fitted';
 import { ColorTable } from './color_tables';
 import { isRegion, sidesOf } from './region';
 
@@ -231,6 +230,20 @@ export function packed(
     // again and bricks of two grids do not fit together.
     const options: RequestInit = { ...(query['id'] === undefined && { cache: 'no-cache' }), ...(signal && { signal }) };
     return bytesOf(`${gridPath(domain, moment, time)}/packed?${new URLSearchParams(query)}`, options);
+}
+// The view that the server fits to the echo of a grid. Meters are east and north of the middle of the grid, and above
+// sea level.
+export interface FittedView {
+    camera: {
+        azimuth_deg: number;
+        tilt_deg: number;
+        field_of_view_deg: number;
+        place_m: [number, number, number] | null; // null: outside the grid, as for a grid without echo
+    };
+    focus_m: [number, number, number]; // the middle of the echo
+    exaggeration: number;
+    opacity: number;
+    has_echo: boolean;
 }
 // Returns the view that the server fits to the echo of a stored grid, for a picture of this size in pixels.
 export function fittedView(

@@ -1,6 +1,6 @@
 // Adds the settings of the view: colors, threshold, opacity, exaggeration of heights, and camera.
 
-import { cameraOfFitted } from '../../camera/fitted';
+import { cameraOfFitted } from '../../scene/fitted';
 import { fittedView, isRegion } from '../../wire/api';
 import { valueText } from '../../tables/units';
 import { usualRungs } from '../../renderer/ladder';

@@ -1,24 +1,11 @@
 // Turns the view that the server fits to the echo of a grid (docs/web/grids.md, `view`) into a camera of the page.
 //
 // The server's camera has a place near the echo. The page's camera stays outside the grid's box and zooms, so its
-// perspective is weaker. Both look in the same direction, have the same point in the middle of the picture, and show the
-// echo equally large.
+// perspective is weaker. Both look in the same direction, have the same point in the middle of the picture, and show
+// the echo equally large.
 
-import { Box, Camera, Vec3, ViewGeometry, dot, minus, plus } from './geometry';
-
-// Meters are east and north of the middle of the grid, and above sea level.
-export interface FittedView {
-    camera: {
-        azimuth_deg: number;
-        tilt_deg: number;
-        field_of_view_deg: number;
-        place_m: Vec3 | null; // null: outside the grid, as for a grid without echo
-    };
-    focus_m: Vec3; // the middle of the echo
-    exaggeration: number;
-    opacity: number;
-    has_echo: boolean;
-}
+import { Box, Camera, Vec3, ViewGeometry, dot, minus, plus } from '../camera/geometry';
+import { FittedView } from '../wire/api';
 
 export function cameraOfFitted(fitted: FittedView, box: Box, width: number, height: number): Camera {
     const { azimuth_deg, tilt_deg, field_of_view_deg, place_m } = fitted.camera;

@@ -1,8 +1,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { FittedView, cameraOfFitted } from './fitted';
-import { Box, Vec3, ViewGeometry } from './geometry';
+import { Box, Vec3, ViewGeometry } from '../camera/geometry';
+import { FittedView } from '../wire/api';
+import { cameraOfFitted } from './fitted';
 
 const box: Box = { halfXM: 230000, halfYM: 230000, bottomM: 0, topM: 16000 };
 const fitted: FittedView = {
