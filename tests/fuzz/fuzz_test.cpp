@@ -62,6 +62,7 @@ constexpr FuzzCase cases[] = {
     {"Bunzip", bunzip_seeds, 50, check_bunzip},
     {"GridFile", grid_file_seeds, 300, check_grid_file, mutate_grid_file},
     {"Request", request_seeds, 2000, check_request},
+    {"Calls", call_seeds, 20, check_calls},
 };
 INSTANTIATE_TEST_SUITE_P(Each, Fuzz, ::testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -65,4 +65,9 @@ void check_grid_file(std::span<const std::byte> file);
 // site. The answer with a file has exactly the bytes that its headers name.
 void check_request(std::span<const std::byte> input);
 
+// Checks calls of the C interface, whose order and arguments the bytes decide. Each call returns a
+// code that its error tells, makes an object if and only if it succeeds, writes only what the
+// caller has room for, and has no defect. Arrays have the promised size.
+void check_calls(std::span<const std::byte> script);
+
 }  // namespace stormcellar::fuzz

@@ -22,5 +22,6 @@ struct Seed {
 [[nodiscard]] std::vector<Seed> bunzip_seeds();
 [[nodiscard]] std::vector<Seed> grid_file_seeds();
 [[nodiscard]] std::vector<Seed> request_seeds();
+[[nodiscard]] std::vector<Seed> call_seeds();
 
 }  // namespace stormcellar::fuzz
