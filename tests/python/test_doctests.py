@@ -27,9 +27,9 @@ def has(name):
 def missing(name):
     """Returns what an example needs and this machine lacks, or None."""
     needs = {"stormcellar.backend": "xarray", "stormcellar.trees": "xarray", "stormcellar.volume.Volume.to_pyart": "pyart",
-             "stormcellar.grids.Grid.to_dataset": "xarray", "stormcellar.lazy": "xarray",
+             "stormcellar.archives": "xarray", "stormcellar.grids.Grid.to_dataset": "xarray", "stormcellar.lazy": "xarray",
              "stormcellar.caches.Cache.open": "xarray", "stormcellar.accuracies.Table": "pandas"}
-    if name.startswith(("stormcellar.caches.", "stormcellar.catalogs.Cat")) and not PROGRAM:
+    if name.startswith(("stormcellar.archives.open", "stormcellar.caches.", "stormcellar.catalogs.Cat")) and not PROGRAM:
         return "command line that makes a catalog and a cache"
     found = next((needed for start, needed in needs.items() if name.startswith(start) and not has(needed)), None)
     if found is None and name == "stormcellar.trees.open_datatree":
