@@ -203,7 +203,7 @@ test.describe('layers', { tag: '@full' }, () => {
     }
   });
 
-  test('X cuts a section, and a drag moves it', async ({ viewer, above: { station } }) => {
+  test('X cuts a section, and drags move it and its ends', async ({ viewer, server, above: { station } }) => {
     await viewer.resize(560, 420);
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
     await viewer.settled(() => viewer.key('x'));
@@ -218,9 +218,32 @@ test.describe('layers', { tag: '@full' }, () => {
     const [latitudeA, longitudeA, latitudeB, longitudeB] = second.split(',').map(Number);
     expect(latitudeA, 'southward').toBeGreaterThan(latitudeB);
     expect(longitudeA, 'eastward').toBeLessThan(longitudeB);
-    await viewer.settled(() => viewer.drag([430, 250], [40, 0]));
+    await viewer.settled(() => viewer.drag([430, 250], [-40, 0]));
     expect(await viewer.told('section'), 'a drag without the tool leaves the section').toBe(second);
     expect(await viewer.told('look-at-km'), 'a drag without the tool moves the map').not.toBeNull();
+    await viewer.settled(() => viewer.drag([435, 285], [-20, 20]));
+    const third = (await viewer.told('section')).split(',').map(Number);
+    expect(third.slice(0, 2), 'A stays').toEqual([latitudeA, longitudeA]);
+    expect([third[2] < latitudeB, third[3] < longitudeB], 'a drag of B moves it south and west without the tool').toEqual([true, true]);
+    await viewer.settled(() => viewer.press('section-radar'));
+    const radial = (await viewer.told('section')).split(',').map(Number);
+    const { stations } = await server.json(`stations?station=${station}`);
+    expect(radial[0], 'A is at the radar').toBeCloseTo(stations[0].latitude_deg, 2);
+    expect(radial[1]).toBeCloseTo(stations[0].longitude_deg, 2);
+    expect([third.slice(0, 2), third.slice(2)], 'B is an end of the old section').toContainEqual(radial.slice(2));
+    await expect(viewer.byId('section-told')).toHaveText(/^From A to B: [\d.]+ km toward \d+°$/);
+    await viewer.keep('section-radial');
+    const sizeOf = () => viewer.byId('section-canvas').boundingBox();
+    const small = await sizeOf();
+    await viewer.press('section-larger');
+    await viewer.resize(1000, 700);
+    await expect.poll(async () => (await sizeOf()).height, 'the enlarged plot').toBeGreaterThan(2 * small.height);
+    const { y } = await viewer.byId('section-plot').boundingBox();
+    expect(y, 'the plot is below the head').toBeGreaterThan(await viewer.byId('head').evaluate((head) => head.getBoundingClientRect().bottom));
+    await viewer.keep('section-large');
+    await viewer.press('section-larger');
+    await expect.poll(async () => (await sizeOf()).height).toBeLessThan(1.5 * small.height);
+    await viewer.resize(560, 420);
     await viewer.changes('A looks at the section', 'tilt', () => viewer.key('a'), (_, after) => after === 80);
   });
 

@@ -3,11 +3,11 @@ import test from 'node:test';
 
 import { ViewGeometry, usualCamera } from '../camera/geometry';
 import { levelCodes } from '../fields/level_codes';
-import { CropTool, SectionTool, acrossView } from './layer_tools';
+import { CropTool, SectionGrip, SectionTool, acrossView, fromRadar } from './layer_tools';
 import { TextureShelf } from '../renderer/graphics';
 import { boxOf } from '../scene/grid_box';
 import { usualLayers } from '../scene/layers';
-import { planeOf } from '../earth/projection';
+import { Place, planeOf } from '../earth/projection';
 import { codeAt, readPackedGrid } from '../wire/packed_grid';
 import { evenLevels, packedGrid, scrambled } from '../testing/written_grid';
 
@@ -61,6 +61,27 @@ test('a section goes from the press to the release, and its ends can be moved', 
     tool.drag(50, 250);
     tool.release();
     assert(isNear(ends()[0]!, geometry.ground(50, 250)!) && isNear(ends()[1]!, geometry.ground(300, 200)!));
+});
+
+test('without the tool, only presses on an end move the section, and A can go to the radar', () => {
+    const app = madeApp();
+    const [a, b] = [geometry.ground(100, 100)!, geometry.ground(300, 200)!].map((at) => plane.toPlace(at)) as [
+        Place,
+        Place,
+    ];
+    app.state.layers.section = [a, b];
+    const grip = new SectionGrip(app as unknown as Args[0], drawing);
+    assert.equal(grip.press(200, 150), false);
+    assert(grip.press(302, 199));
+    grip.drag(250, 280);
+    grip.release();
+    const [first, second] = app.state.layers.section as readonly Place[];
+    assert(isNear(plane.toPlane(first!)!, plane.toPlane(a)!));
+    assert(isNear(plane.toPlane(second!)!, geometry.ground(250, 280)!));
+    const site = grid.sites[0]!;
+    const radial = fromRadar(app as unknown as Args[0], [site, b])!;
+    assert.deepEqual(radial, [{ latitudeDeg: site.latitudeDeg, longitudeDeg: site.longitudeDeg }, b]);
+    assert.deepEqual(fromRadar(app as unknown as Args[0], [b, site]), radial, 'the farther end is B');
 });
 
 test('a press without a drag makes no section', () => {

@@ -2,6 +2,8 @@
 
 import { ViewGeometry } from '../camera/geometry';
 import { shades } from '../renderer/shades';
+import { legOf } from '../earth/measure';
+import { nearestSite } from '../fields/sweep_choice';
 import { boxOf } from '../scene/grid_box';
 import { Crop, Layers } from '../scene/layers';
 import { Place, Plane, planeOf } from '../earth/projection';
@@ -49,6 +51,7 @@ abstract class GroundTool implements Tool {
 
 // Draws a section from the press to the release. A press on an end of the section moves this end.
 export class SectionTool extends GroundTool {
+    protected takesEndsOnly = false;
     private movesFirst = false;
     private begun: [number, number] = [0, 0];
 
@@ -70,6 +73,7 @@ export class SectionTool extends GroundTool {
             const pixel = pagePixel(geometry, end, geometry.groundM);
             return pixel && Math.hypot(pixel[0] - x / pixelRatio(), pixel[1] - y / pixelRatio()) < reachPixels;
         });
+        if (this.takesEndsOnly && !(held !== undefined && held >= 0)) return false;
         this.movesFirst = held === 0;
         this.fixed = ends && held !== undefined && held >= 0 ? ends[1 - held]! : at;
         return true;
@@ -81,6 +85,20 @@ export class SectionTool extends GroundTool {
         const plane = planeOf(this.app.shown.loaded.grid);
         const [fixed, moved] = [plane.toPlace(this.fixed), plane.toPlace(at)];
         this.set({ section: this.movesFirst ? [moved, fixed] : [fixed, moved] });
+    }
+}
+
+// Moves an end of the section that is pressed. Leaves other presses to the camera.
+export class SectionGrip extends SectionTool {
+    protected override takesEndsOnly = true;
+
+    constructor(app: App, drawing: Drawing) {
+        super(
+            app,
+            drawing,
+            () => undefined,
+            () => undefined,
+        );
     }
 }
 
@@ -123,6 +141,32 @@ export function acrossView(app: App, geometry: ViewGeometry): [Place, Place] | n
         middle[1] + side * half * geometry.right[1],
     ];
     return plane && [plane.toPlace(at(-1)), plane.toPlace(at(1))];
+}
+
+// Returns a section from the nearest radar to the farther end of a section, like an RHI; null without radars.
+export function fromRadar({ shown }: App, section: readonly [Place, Place]): [Place, Place] | null {
+    if (!shown) return null;
+    const { grid } = shown.loaded;
+    const plane = planeOf(grid);
+    const ends = section.map((place) => plane.toPlane(place));
+    const site = nearestSite(grid.sites, plane, ends[0] ?? [0, 0]);
+    if (!site) return null;
+    const [a, b] = section.map((place) => legOf(site, place).distanceM) as [number, number];
+    return [{ latitudeDeg: site.latitudeDeg, longitudeDeg: site.longitudeDeg }, a > b ? section[0] : section[1]];
+}
+
+// Draws a grip that can be dragged.
+function grip(pen: CanvasRenderingContext2D, [x, y]: [number, number]): void {
+    for (const [color, width] of [
+        [shades.halo, 4],
+        [shades.text, 1.5],
+    ] as const) {
+        pen.beginPath();
+        pen.arc(x, y, 11 * textScale(), 0, 2 * Math.PI);
+        pen.strokeStyle = color;
+        pen.lineWidth = width;
+        pen.stroke();
+    }
 }
 
 function letter(pen: CanvasRenderingContext2D, text: string, [x, y]: [number, number]): void {
@@ -182,8 +226,15 @@ export function addMarks(app: App, drawing: Drawing): void {
             });
             pen.setLineDash([6, 4]);
             line([from, to]);
-            if (from) letter(pen, 'A', from);
-            if (to) letter(pen, 'B', to);
+            pen.setLineDash([]);
+            for (const [name, end] of [
+                ['A', from],
+                ['B', to],
+            ] as const) {
+                if (!end) continue;
+                grip(pen, end);
+                letter(pen, name, end);
+            }
         }
     });
 }

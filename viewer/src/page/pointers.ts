@@ -21,7 +21,8 @@ const farthestClick = 4; // pixels
 export class Pointers {
     private pointers = new Map<number, PointerEvent>();
     private travelled = 0;
-    private isTaken = false; // the tool has taken the press
+    private taker: Tool | null = null; // tool that has taken the press
+    private grip: Tool = {}; // takes presses that the tool leaves
     private usual: Tool = {};
     private tool: Tool = this.usual;
     // Pixels of the last click and of the resting pointer, until the usual tool has come.
@@ -40,6 +41,11 @@ export class Pointers {
         this.tool.end?.();
         this.tool = tool ?? this.usual;
         this.drawing.drawMarks();
+    }
+
+    // Lets a tool take presses that no other tool wants, such as those on the ends of a section.
+    setGrip(tool: Tool): void {
+        this.grip = tool;
     }
 
     // Sets the usual tool, and gives it what the pointer did before the tool came.
@@ -72,7 +78,8 @@ export class Pointers {
         this.pointers.set(event.pointerId, event);
         this.travelled = 0;
         const isPlain = this.pointers.size === 1 && event.button === 0 && !event.shiftKey;
-        this.isTaken = isPlain && (this.tool.press?.(...this.at(event)) ?? false);
+        const at = this.at(event);
+        this.taker = isPlain ? ([this.tool, this.grip].find((one) => one.press?.(...at)) ?? null) : null;
     }
 
     private move(event: PointerEvent): void {
@@ -89,8 +96,8 @@ export class Pointers {
         const { camera, isFlat } = this.app.state;
         if (this.pointers.size === 2) {
             this.pinch(before, event, dx, dy);
-        } else if (this.isTaken) {
-            this.tool.drag?.(...this.at(event));
+        } else if (this.taker) {
+            this.taker.drag?.(...this.at(event));
         } else {
             const isOther = !isFlat && (event.shiftKey || (event.buttons & 2) !== 0);
             this.app.moved(dragged(camera, geometry, [dx, dy], pixelRatio(), isOther));
@@ -112,8 +119,8 @@ export class Pointers {
 
     private up(event: PointerEvent): void {
         if (!this.pointers.delete(event.pointerId)) return;
-        if (this.isTaken) this.tool.release?.(...this.at(event));
-        this.isTaken = false;
+        this.taker?.release?.(...this.at(event));
+        this.taker = null;
         if (event.type !== 'pointerup' || this.travelled >= farthestClick) return;
         this.early.click = this.at(event);
         this.tool.click?.(...this.at(event));

@@ -10,13 +10,14 @@ import {
     toggledFolded,
     veilsFolded,
 } from '../../scene/layers';
-import { planeOf } from '../../earth/projection';
+import { legOf } from '../../earth/measure';
+import { Place, planeOf } from '../../earth/projection';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { App } from '../app';
 import { button, element, labeled, leaveByEscape, make, putOptions } from '../dom';
 import { Drawing } from '../drawing';
 import { Keys } from '../keys';
-import { CropTool, SectionTool, acrossView, addMarks, wholeBox } from '../layer_tools';
+import { CropTool, SectionGrip, SectionTool, acrossView, addMarks, fromRadar, wholeBox } from '../layer_tools';
 import { Pointers } from '../pointers';
 import { derivedOf, isMoment } from '../../wire/moments';
 import { layerTexts } from '../later_texts';
@@ -83,6 +84,7 @@ export class LayersPanel {
         element('open').addEventListener('click', () => this.open(false));
         this.addLayers(keys);
         addMarks(this.app, this.drawing);
+        this.pointers.setGrip(new SectionGrip(this.app, this.drawing));
         this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
         this.drawing.layers.layerCame.push(() => this.put());
         this.put();
@@ -176,8 +178,10 @@ export class LayersPanel {
         return [
             button('section-draw', words.draw, () => this.drawSection()),
             button('section-across', words.across, () => this.cutAcross()),
+            button('section-radar', words.fromRadar, () => this.cutFromRadar()),
             button('section-look', words.lookAt, () => this.lookAtSection()),
             labeled(words.ends, ends),
+            make('output', { id: 'section-told' }),
         ];
     }
 
@@ -269,6 +273,11 @@ export class LayersPanel {
         const section = geometry && acrossView(this.app, geometry);
         if (section) this.set({ section });
     }
+    private cutFromRadar(): void {
+        const { section } = this.layers;
+        const radial = section && fromRadar(this.app, section);
+        if (radial) this.set({ section: radial });
+    }
     private drawSection(): void {
         this.draw(SectionTool, words.dragSection);
     }
@@ -356,10 +365,17 @@ export class LayersPanel {
         const box = wholeBox(this.app);
         if (!box) return;
         if (layers.planeM !== null) this.putPlane(box, layers.planeM);
-        if (layers.section) element<HTMLInputElement>('section-ends').value = sectionText(layers.section);
+        if (layers.section) this.putSection(layers.section);
         if (layers.surface) this.putSurface(layers.surface.value, layers.surface.moment || this.app.state.moment);
         if (layers.sweepDeg !== null) this.putSweep();
         if (layers.crop) this.putCrop(box, layers.crop);
+    }
+
+    private putSection(section: readonly [Place, Place]): void {
+        element<HTMLInputElement>('section-ends').value = sectionText(section);
+        const { distanceM, azimuthDeg } = legOf(...section);
+        const length = distanceText(distanceM, this.app.state.units);
+        element('section-told').textContent = words.sectionTold(length, Math.round(azimuthDeg) % 360);
     }
 
     private putPlane(box: Crop, heightM: number): void {

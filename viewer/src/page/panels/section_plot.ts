@@ -7,7 +7,7 @@ import { ColorTable } from '../../wire/color_tables';
 import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
-import { fontOf, make, pixelRatio, textScale } from '../dom';
+import { fontOf, labeledButton, make, pixelRatio, press, textScale } from '../dom';
 import { plotTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
 import { Windows } from '../windows';
@@ -61,7 +61,8 @@ export class SectionPlot {
         'aria-label': plotTexts.plot,
     });
     private reading = make('output', { id: 'section-reading' });
-    private box = make('section', { id: 'section-plot', hidden: '' }, this.canvas, this.reading);
+    private larger = labeledButton('section-larger', '⤢', plotTexts.larger, () => this.enlarge());
+    private box = make('section', { id: 'section-plot', hidden: '' }, this.larger, this.canvas, this.reading);
     private section: Section | null = null;
     private cursor: [number, number] | null = null; // in pixels of the plot
     private drawn: readonly unknown[] = [];
@@ -75,7 +76,7 @@ export class SectionPlot {
             this.point([event.offsetX / textScale() - left, event.offsetY / textScale() - top]),
         );
         this.canvas.addEventListener('pointerleave', () => this.point(null));
-        this.canvas.addEventListener('keydown', (event) => this.press(event));
+        this.canvas.addEventListener('keydown', (event) => this.pressKey(event));
         this.canvas.addEventListener('blur', () => this.point(null));
         window.addEventListener('resize', () => this.put());
         app.on(['view', 'shown', 'units', 'cells'], () => this.put());
@@ -112,6 +113,12 @@ export class SectionPlot {
         );
         this.draw();
         this.say();
+    }
+
+    private enlarge(): void {
+        const isLarge = this.box.classList.toggle('large');
+        press('section-larger', isLarge);
+        this.put();
     }
 
     private draw(): void {
@@ -177,7 +184,7 @@ export class SectionPlot {
         this.say();
     }
 
-    private press(event: KeyboardEvent): void {
+    private pressKey(event: KeyboardEvent): void {
         const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
         if (!way) return;
         event.preventDefault();
