@@ -261,7 +261,7 @@ typedef struct stormcellar_grid_facts {
     int32_t mean_of_cell;  // 1: values are means over their cells
     double spacing_m;
     double center_latitude_deg, center_longitude_deg;
-    int64_t time_ms;           // start of the volume
+    int64_t time_ms;           // start of the volume; instant of a mosaic
     int64_t start_ms, end_ms;  // of the radials that were used
     char projection[24];       // azimuthal_equidistant, lambert_conformal or latitude_longitude
     double spacing_deg;        // of a grid in degrees, whose spacing_m is 0

@@ -38,8 +38,8 @@ class CellState(enum.IntEnum):
 class Grid:
     """A grid of one moment, about its center on WGS84.
 
-    `moment`, `unit`, `spacing_m`, `center` (latitude and longitude in degrees), `time` (start of the volume), `start`
-    and `end` (of the radials used) describe it. `x_m`, `y_m` and `levels_m` are the places of the cells: meters to the
+    `moment`, `unit`, `spacing_m`, `center` (latitude and longitude in degrees), `time` (start of the volume,
+    or instant of a mosaic), `start` and `end` (of the radials used) describe it. `x_m`, `y_m` and `levels_m` are the places of the cells: meters to the
     east and to the north of the center, and above mean sea level.
 
     `projection` is azimuthal_equidistant; grids of a cache may also have lambert_conformal (with `parallels_deg`) or
