@@ -38,9 +38,9 @@ class CellState(enum.IntEnum):
 class Grid:
     """A grid of one moment, about its center on WGS84.
 
-    `moment`, `unit`, `spacing_m`, `center` (latitude and longitude in degrees), `time` (start of the volume,
-    or instant of a mosaic), `start` and `end` (of the radials used) describe it. `x_m`, `y_m` and `levels_m` are the places of the cells: meters to the
-    east and to the north of the center, and above mean sea level.
+    `moment`, `unit`, `spacing_m`, `center` (latitude and longitude in degrees), `time` (start of the volume, or instant
+    of a mosaic), `start` and `end` (of the radials used) describe it. `x_m`, `y_m` and `levels_m` are the places of the
+    cells: meters to the east and to the north of the center, and above mean sea level.
 
     `projection` is azimuthal_equidistant; grids of a cache may also have lambert_conformal (with `parallels_deg`) or
     latitude_longitude, which has `spacing_deg`, `longitudes_deg` and `latitudes_deg` instead of places in meters.
@@ -224,7 +224,8 @@ def _pointers(objects):
     return (ctypes.c_void_p * len(objects))(*(one._handle.pointer.value for one in objects))
 
 
-def grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z, threads):
+def grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
+                 threads):
     heights = np.ascontiguousarray([] if levels_m is None else levels_m, "f8")
     asked = sized(_library.GridOptions, moment=moment.encode(), columns=columns, rows=rows, spacing_m=spacing_m,
                   levels_m=heights.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) if heights.size else None,

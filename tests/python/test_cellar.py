@@ -100,7 +100,8 @@ class Caches(unittest.TestCase):
         xarray_or_skip(self)
         lazy = self.cache.open("KBGM")["REF"]
         whole = pickle.loads(pickle.dumps(lazy)).load().values
-        for index in ((2, 3, 50, 60), (slice(1, 4), 3, slice(None), 60), (slice(None), slice(2, 9, 3), 50, slice(60, 65)),
+        for index in ((2, 3, 50, 60), (slice(1, 4), 3, slice(None), 60),
+                      (slice(None), slice(2, 9, 3), 50, slice(60, 65)),
                       (4, slice(None, None, -1), slice(10, 12), slice(None)), (slice(0, 0), 1, 2, 3)):
             np.testing.assert_array_equal(lazy[index].values, whole[index])
         np.testing.assert_array_equal(lazy.isel(time=[3, 0], y=[7, 7, 90], x=4).values,
