@@ -154,6 +154,30 @@ test('the first view suits the storms, and an address with a view stays', async 
   expect(await viewer.number('zoom'), 'an address with a view').toBe(3);
 });
 
+test('a line tells range and azimuth from the radar', async ({ viewer, server: { station } }) => {
+  await viewer.resize(796, 532);
+  await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
+  const says = viewer.byId('tool-says');
+  await viewer.key('q');
+  await expect(says).toContainText('Point at a place');
+  // The radar is in the middle of the picture, and north is up.
+  const told = async () => (await says.textContent()).match(new RegExp(`^([\\d.]+) km at (\\d+)° from ${station}$`))?.slice(1).map(Number) ?? [0, 0];
+  await viewer.hover([498, 266]);
+  await expect(says).toContainText(`from ${station}`);
+  const [range, azimuth] = await told();
+  expect([89, 90, 91], 'degrees of a place in the east').toContain(azimuth);
+  await viewer.click([398, 366]);
+  await expect(says).toContainText(/at (179|180|181)° from/);
+  const [south] = await told();
+  expect(south / range, 'both places are 100 pixels away').toBeCloseTo(1, 1);
+  await viewer.keep('bearing');
+  await viewer.hover([300, 266]);
+  await viewer.frames();
+  expect(await told(), 'a click keeps the line').toEqual([south, expect.any(Number)]);
+  await viewer.key('Escape');
+  await expect(says).toHaveText('');
+});
+
 // 2026-11-28: nothing led back from a view without echo, not even choosing the radar again.
 test('Reset view leads back to the first view', async ({ page, viewer, server: { station } }) => {
   await viewer.resize(796, 532);

@@ -3,6 +3,7 @@
 import { LoadedGrid } from '../../atlas/loaded_grid';
 import { domains, hasRaw, isAbsent, rawAt, rawBefore, rawPath } from '../../wire/api';
 import { App } from '../app';
+import { BearingTool } from '../bearing';
 import { button, element, make, press } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
@@ -47,6 +48,7 @@ export class ToolsPanel {
         for (const [id, text, key, toggle] of [
             ['tool-distance', panelTexts.tools.distanceName, 'd', () => this.measure('distance')],
             ['tool-area', panelTexts.tools.areaName, 'r', () => this.measure('area')],
+            ['tool-bearing', panelTexts.tools.bearingName, 'q', () => this.bear()],
             ['tool-fly', panelTexts.tools.flyName, 'f', () => this.fly()],
         ] as const) {
             tools.append(button(id, text, toggle));
@@ -56,12 +58,19 @@ export class ToolsPanel {
         tools.append(button('raw', panelTexts.tools.raw, () => void this.download()));
         this.drawing.addOverlay((pen, geometry) => {
             const { current } = this.pointers;
-            if (current instanceof MeasureTool) current.draw(pen, geometry);
+            if (current instanceof MeasureTool || current instanceof BearingTool) current.draw(pen, geometry);
         });
         this.app.on('view', () => {
             if (this.app.state.isFlat && this.pointers.current instanceof FlyTool) this.pointers.use(null);
         });
-        this.app.on('choices', () => this.pointers.current instanceof MeasureTool && this.pointers.use(null));
+        // News of other domains do not end a tool.
+        let { domain } = this.app.state;
+        this.app.on('choices', () => {
+            const { current } = this.pointers;
+            if (domain === this.app.state.domain) return;
+            domain = this.app.state.domain;
+            if (current instanceof MeasureTool || current instanceof BearingTool) this.pointers.use(null);
+        });
     }
 
     private tell(text: string): void {
@@ -75,6 +84,15 @@ export class ToolsPanel {
             `tool-${measure}`,
             isUsed,
             (ended) => new MeasureTool(this.app, this.drawing, measure, (text) => this.tell(text), ended),
+        );
+    }
+
+    private bear(): void {
+        const isUsed = this.pointers.current instanceof BearingTool;
+        this.use(
+            'tool-bearing',
+            isUsed,
+            (ended) => new BearingTool(this.app, this.drawing, (text) => this.tell(text), ended),
         );
     }
 
