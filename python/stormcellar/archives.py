@@ -36,7 +36,6 @@ if typing.TYPE_CHECKING:
 _ANGLE_TOLERANCE_DEG = 0.15
 _GAP = 0.75  # A place farther from each ray than this part of the spacing was not measured.
 _DECODED = 8  # volumes that an archive keeps in memory
-_TRIES = 3  # files that are tried to learn the sweeps of a pattern
 _RECORD_RADIALS = 120  # in an LDM record of a volume of messages 31
 _FIRST, _LAST = (0, 3, 5), (2, 4)  # states of the radials that begin and end a sweep
 
@@ -52,10 +51,10 @@ def open_archive(catalog: Catalog | str | os.PathLike[str], station: str, start:
     0.5 or 1 degree, and each has the gates of the nearest ray; `time`, `elevation`, `nyquist_velocity` and
     `ray_azimuth` describe that ray. Where a ray or a sweep is missing, values are NaN and states no_data.
 
-    Opening decodes one volume for each pattern and number of sweeps. Other volumes are decoded when their values are
-    used, on all processors, and nothing is written to disk. The last 8 volumes stay in memory. A file that cannot be
-    read, or holds another volume than the catalog says, gives NaN and a warning. Raises Error (not_found) if there is
-    no volume.
+    Opening decodes the newest and the oldest volume of each pattern, number of sweeps and number of rays. Others are
+    decoded when their values are used, on all processors, and nothing is written to disk. The last 8 volumes stay in
+    memory. A file that cannot be read, or holds another volume than the catalog says, gives NaN and a warning, as does
+    a sweep that no group fits. Raises Error (not_found) if there is no volume.
 
     >>> archive = stormcellar.open_archive(CATALOG, "KTLX")
     >>> velocity = archive["/VCP-11/sweep_1"]["VRADH"]
@@ -64,6 +63,8 @@ def open_archive(catalog: Catalog | str | os.PathLike[str], station: str, start:
     >>> float(velocity.sel(vcp_time="1999-05-03").max())
     26.0
     """
+    if not station:
+        raise Error("open_archive() needs a station", "bad_argument")
     catalog = catalog if isinstance(catalog, Catalog) else Catalog(catalog)
     by_pattern = collections.defaultdict(list)
     for entry in _one_of_each_start(catalog.volumes(station, start, end)):
@@ -86,11 +87,16 @@ def _one_of_each_start(entries):
     """Returns the entries that can be read, one for each start: a volume may come in several files."""
     best = {}
     for entry in entries:
-        if entry.state in ("complete", "partial") and entry.sweeps > 0 and not np.isnat(entry.start):
+        if entry.state in ("complete", "partial") and entry.sweeps and not np.isnat(entry.start):
             known = best.setdefault(entry.start, entry)
             if (entry.complete, entry.radials) > (known.complete, known.radials):
                 best[entry.start] = entry
     return list(best.values())
+
+
+def _size(entry):
+    """Returns the number of sweeps of a volume, and how many times 360 rays it has."""
+    return entry.sweeps, round(entry.radials / 360)
 
 
 class _Kind(typing.NamedTuple):
@@ -143,13 +149,6 @@ class _Layout:
                     self.axes[name] = variable
 
 
-class _Decoded:
-    """The sweeps of a volume that have been decoded, by their places; None for a place where the volume has none."""
-
-    def __init__(self):
-        self.lock, self.sweeps = threading.Lock(), {}
-
-
 class _Shelf:
     """Keeps the last decoded volumes of an archive, so that all moments of a volume are decoded once."""
 
@@ -160,8 +159,9 @@ class _Shelf:
         return _Shelf, ()
 
     def of(self, entry):
+        """Returns the lock of a volume, and its decoded sweeps by their places; None where the volume has none."""
         with self._lock:
-            decoded = self._decoded.setdefault((entry.path, entry.number), _Decoded())
+            decoded = self._decoded.setdefault((entry.path, entry.number), (threading.Lock(), {}))
             self._decoded.move_to_end((entry.path, entry.number))
             while len(self._decoded) > _DECODED:
                 self._decoded.popitem(last=False)
@@ -173,20 +173,20 @@ class _Pattern:
 
     def __init__(self, entries, shelf):
         self._entries, self._shelf = entries, shelf
-        self._kinds, self._layouts = [], []
+        self._kinds, self._layouts, self.root = [], [], None
         self._numbers = {}  # (index of the kind, occurrence): number of the place
-        self._records = {}  # (sweeps of a volume, place): first record, number of records, cut
-        self.root = None
-        by_count = collections.defaultdict(list)
+        self._records = {}  # (size of a volume, place): first record, number of records, cut
+        by_size = collections.defaultdict(list)
         whole = [entry for entry in entries if entry.complete]
         for entry in whole or entries:
-            by_count[entry.sweeps].append(entry)
-        for _, some in sorted(by_count.items(), reverse=True):
-            self._learn(some)
+            by_size[_size(entry)].append(entry)
+        for _, some in sorted(by_size.items(), reverse=True):
+            self._learn(some[::-1])
+            self._learn(some[: len(some) - 1])  # the oldest may have other gates and moments than the newest
 
     def _learn(self, entries):
-        """Adds the places of the sweeps of the newest volume that can be read."""
-        for entry in entries[: -_TRIES - 1: -1]:
+        """Adds the places of the sweeps of the first volume that can be read, of three."""
+        for entry in entries[:3]:
             volume = _opened(entry)
             if volume is None:
                 continue
@@ -194,7 +194,7 @@ class _Pattern:
             record = 1
             for place, sweep in self._placed(volume, True):
                 count = -(-len(sweep.radials) // _RECORD_RADIALS)
-                self._records[entry.sweeps, place] = (record, count, sweep.elevation_number)
+                self._records[_size(entry), place] = (record, count, sweep.elevation_number)
                 record += count
             return
 
@@ -248,17 +248,17 @@ class _Pattern:
     def sweep(self, time, place):
         """Returns the sweep of a volume at a place and the row of each azimuth (-1: no ray), or None if it has none."""
         entry = self._entries[time]
-        decoded = self._shelf.of(entry)
-        with decoded.lock:
-            if place not in decoded.sweeps:
-                decoded.sweeps.update(self._from_records(entry, place) or self._from_file(entry))
-            return decoded.sweeps[place]
+        lock, sweeps = self._shelf.of(entry)
+        with lock:
+            if place not in sweeps:
+                sweeps.update(self._from_records(entry, place) or self._from_file(entry))
+            return sweeps[place]
 
     def _from_records(self, entry, place):
-        """Decodes only the records in which another volume with as many sweeps has this sweep. Returns None if they do
-        not hold the whole sweep, or if the sweeps of its kind before it must be counted."""
+        """Decodes only the records in which another volume of this size has this sweep. Returns None if they do not
+        hold the whole sweep, or if the sweeps of its kind before it must be counted."""
         kind = self._layouts[place].kind
-        first, count, cut = self._records.get((entry.sweeps, place), (0, 0, 0))
+        first, count, cut = self._records.get((_size(entry), place), (0, 0, 0))
         must_count = first > 1 and (self._kinds.index(kind), 1) in self._numbers
         if not (count and entry.complete and entry.number == 1) or must_count:
             return None

@@ -159,6 +159,22 @@ class Archives(unittest.TestCase):
                     self.assert_empty(group, step)
         self.assertGreater(archive["/VCP-212/sweep_10"]["time"][0].min(), archive["/VCP-212/sweep_0"]["time"][0].max())
 
+    def test_other_rays_gates_and_moments_are_kept(self):
+        fine = {**LOW, "azimuth_spacing_deg": 0.5}
+        files = [simulate(self.folder, minute, [cut]) for minute, cut in enumerate((LOW, fine, LOW))]
+        files += [pathlib.Path(DATA) / "volumes" / name
+                  for name in ("KTLX20140101_000624.trimmed.ar2v", "KTLX20170101_030027_V06")]
+        catalog = make_catalog(self.folder, files)
+        simulated, real = (stormcellar.open_archive(catalog, station) for station in ("XSYN", "KTLX"))
+        for archive, pattern, places in ((simulated, 767, [[1], [0], [1]]), (real, 32, [range(7)] * 2)):
+            for step, numbers in enumerate(places):
+                file = files[step if archive is simulated else 3 + step]
+                datasets = stormcellar.open_volume(file, sort=False)
+                for sweep, number in enumerate(numbers):
+                    self.assert_same(archive[f"/VCP-{pattern}/sweep_{number}"], step, datasets[f"/sweep_{sweep}"])
+        self.assert_empty(simulated["/VCP-767/sweep_0"], 2)
+        self.assertNotIn("/VCP-32/sweep_7", getattr(real, "groups", real))
+
     def test_missing_rays_have_no_values(self):
         gap = "\n[[instrument.missing_radials]]\nfrom_azimuth_deg = 30\nto_azimuth_deg = 40\n"
         file = simulate(self.folder, 0, [MIDDLE], gap)
@@ -171,15 +187,15 @@ class Archives(unittest.TestCase):
         catalog = make_catalog(self.folder, files)
         with mock.patch.object(archives, "_opened", wraps=archives._opened) as opened:
             archive = stormcellar.open_archive(catalog, "KBGM")
-            self.assertEqual(opened.call_count, 1)
+            self.assertEqual(opened.call_count, 2)
             group = archive["/VCP-21/sweep_9"]
             self.assertIn("...", repr(group))
             with concurrent.futures.ThreadPoolExecutor(8) as pool:
                 names = ["DBZH", "VRADH", "WRADH_status", "time"] * 4
                 values = list(pool.map(lambda name: group[name].values, names))
-            self.assertEqual(opened.call_count, 1 + len(files))
+            self.assertEqual(opened.call_count, 2 + len(files))
             archive["/VCP-21/sweep_0"]["DBZH"][2].values
-            self.assertEqual(opened.call_count, 1 + len(files))
+            self.assertEqual(opened.call_count, 2 + len(files))
         for value, name in zip(values, names):
             np.testing.assert_array_equal(value, values[names.index(name)])
 
@@ -207,11 +223,13 @@ class Archives(unittest.TestCase):
         self.assert_same(group, 2, stormcellar.open_volume(files[2], sort=False)["/sweep_1"])
 
     def test_a_sweep_without_a_group_warns(self):
-        files = [simulate(self.folder, 0, [LOW, {"elevation_deg": 7}]), simulate(self.folder, 1, [LOW, HIGH])]
+        """Opening looks at the newest and the oldest of volumes of one size, not at those between them."""
+        middle = {"elevation_deg": 7}
+        files = [simulate(self.folder, minute, [LOW, cut]) for minute, cut in enumerate((HIGH, middle, HIGH))]
         archive = stormcellar.open_archive(make_catalog(self.folder, files), "XSYN")
         with self.assertWarnsRegex(UserWarning, "left out sweep 1 of 7.0 degrees"):
-            self.assert_empty(archive["/VCP-767/sweep_1"], 0)
-        self.assert_same(archive["/VCP-767/sweep_0"], 0, stormcellar.open_volume(files[0], sort=False)["/sweep_0"])
+            self.assert_empty(archive["/VCP-767/sweep_1"], 1)
+        self.assert_same(archive["/VCP-767/sweep_0"], 1, stormcellar.open_volume(files[1], sort=False)["/sweep_0"])
 
     def test_times_are_chosen(self):
         files = [simulate(self.folder, minute, [LOW]) for minute in range(4)]
