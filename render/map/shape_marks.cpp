@@ -16,6 +16,10 @@ constexpr double halo_room = 1;
 constexpr double label_size = 10;
 // Edges are split into parts of at most this length, because they are not straight on the map.
 constexpr double longest_part_deg = 0.25;
+constexpr int most_parts = 200'000;  // of all edges
+// Edges may be this far beyond the grid.
+constexpr double near_deg = 10;
+constexpr double meters_a_degree = 111e3;
 // Points further away than this are as good as unseen.
 constexpr double most_pixels = 1e5;
 
@@ -60,9 +64,32 @@ class ShapePlanner {
                p.y <= lines_.geometry->height();
     }
 
+    // Returns in how many parts an edge is split. Edges that are far from the grid stay whole, and
+    // so do edges after a very large number of parts, so that a hostile file takes little time.
+    [[nodiscard]] int parts_of(grid::GeoPoint from, double north_deg, double east_deg) {
+        const grid::GridSpec& spec = *lines_.spec;
+        const double reach_deg =
+            near_deg + std::max(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) /
+                           meters_a_degree;
+        const double north_of_deg = from.latitude_deg - spec.center_latitude_deg;
+        const double east_of_deg =
+            std::remainder(from.longitude_deg - spec.center_longitude_deg, 360);
+        const double shrink = std::max(0.1, std::cos(spec.center_latitude_deg * degree));
+        const bool is_near =
+            std::min(std::abs(north_of_deg), std::abs(north_of_deg + north_deg)) <
+                reach_deg + std::abs(north_deg) &&
+            std::min(std::abs(east_of_deg), std::abs(east_of_deg + east_deg)) * shrink <
+                reach_deg + std::abs(east_deg);
+        const double length_deg = std::max(std::abs(north_deg), std::abs(east_deg));
+        const int parts = std::max(1, static_cast<int>(std::ceil(length_deg / longest_part_deg)));
+        if (!is_near || parts > parts_left_) return 1;
+        parts_left_ -= parts - 1;
+        return parts;
+    }
+
     // Returns the parts of a line that the camera sees.
     [[nodiscard]] std::vector<std::vector<Point>> seen_lines(
-        const std::vector<grid::GeoPoint>& places) const {
+        const std::vector<grid::GeoPoint>& places) {
         std::vector<std::vector<Point>> all(1);
         const auto add = [&](grid::GeoPoint place) {
             if (const auto p = pixel(place)) {
@@ -77,9 +104,7 @@ class ShapePlanner {
             const double north_deg = places[i].latitude_deg - from.latitude_deg;
             const double east_deg =
                 std::remainder(places[i].longitude_deg - from.longitude_deg, 360);
-            const double length_deg = std::max(std::abs(north_deg), std::abs(east_deg));
-            const int parts =
-                std::max(1, static_cast<int>(std::ceil(length_deg / longest_part_deg)));
+            const int parts = parts_of(from, north_deg, east_deg);
             for (int part = 1; part <= parts; ++part) {
                 const double share = static_cast<double>(part) / parts;
                 add({from.latitude_deg + share * north_deg, from.longitude_deg + share * east_deg});
@@ -107,6 +132,7 @@ class ShapePlanner {
     const MapLines& lines_;
     LabelPlaces& places_;
     GroundMap ground_;
+    int parts_left_ = most_parts;
 };
 
 std::vector<Point> outline_of_dot(Point center, double radius) {

@@ -45,11 +45,14 @@ std::string text_of(const Json& properties, const Names& names) {
     return {};
 }
 
+// Returns the time of the first of these properties. The last name is a common word, so that its
+// property may be something else than a time.
 template <class Names>
 Result<std::optional<UtcTime>> time_of(const Json& properties, const Names& names) {
     const std::string text = text_of(properties, names);
     if (text.empty()) return std::nullopt;
     const auto time = shape_time(text);
+    if (!time && text == text_of(properties, std::array{names.back()})) return std::nullopt;
     if (!time) return pass_on(time);
     return *time;
 }
@@ -82,12 +85,25 @@ Result<OverlayShape> style_of(const Json& feature) {
     style.color = *color;
     style.from = *from;
     style.until = *until;
-    style.label = text_of(properties, std::array{"title", "name"});
+    style.label = shape_label(text_of(properties, std::array{"title", "name"}));
     if (const auto width = properties.find("stroke-width");
         width != properties.end() && width->is_number())
         style.width = std::clamp(width->get<float>(), 0.5F, 20.0F);
     return style;
 }
+
+// A kind of geometry: how many lists its points or lines are within.
+struct Kind {
+    std::string_view type;
+    int lists;
+    bool is_of_points;
+};
+constexpr std::array<Kind, 6> kinds = {{{"Point", 0, true},
+                                        {"MultiPoint", 1, true},
+                                        {"LineString", 0, false},
+                                        {"MultiLineString", 1, false},
+                                        {"Polygon", 1, false},
+                                        {"MultiPolygon", 2, false}}};
 
 class GeoJsonReader {
   public:
@@ -138,41 +154,38 @@ class GeoJsonReader {
             }
             return {};
         }
-        const int depth = type == "Point"                                  ? 0
-                          : type == "LineString" || type == "MultiPoint"   ? 1
-                          : type == "Polygon" || type == "MultiLineString" ? 2
-                          : type == "MultiPolygon"                         ? 3
-                                                                           : -1;
-        if (depth < 0)
+        const auto kind = std::ranges::find(kinds, type, &Kind::type);
+        if (kind == kinds.end())
             return fail(ErrorCode::corrupt, "'{}' is no geometry of GeoJSON", printable(type));
         const auto places = geometry.find("coordinates");
         if (places == geometry.end()) return fail(ErrorCode::corrupt, "it has no coordinates");
-        return read_lines(*places, type == "MultiPoint" ? 0 : depth, style);
+        return read_places(*places, kind->lists, kind->is_of_points, style);
     }
 
-    // Reads places: a point (depth 0), a line (1), or lists of lines. A list of points is at depth
-    // 0, too.
-    Status read_lines(const Json& places, int depth, const OverlayShape& style) {
+    // Reads a point or a line, within this many lists.
+    Status read_places(const Json& places, int lists, bool is_of_points,
+                       const OverlayShape& style) {
         if (!places.is_array()) return fail(ErrorCode::corrupt, "its coordinates are no list");
-        const bool is_list = depth > 1 || (depth == 0 && !places.empty() && places[0].is_array());
-        if (is_list) {
-            for (const Json& part : places)
-                if (Status read = read_lines(part, std::max(depth - 1, 0), style); !read)
-                    return read;
-            return {};
-        }
-        OverlayShape shape = style;
-        if (depth == 0) return add(shape, places);
-        for (const Json& place : places)
-            if (Status added = take_place(shape, place); !added) return added;
-        if (shape.points.size() > 1) taken.shapes.push_back(std::move(shape));
+        if (lists == 0) return is_of_points ? add_point(places, style) : add_line(places, style);
+        for (const Json& part : places)
+            if (Status read = read_places(part, lists - 1, is_of_points, style); !read) return read;
         return {};
     }
 
-    Status add(OverlayShape& point, const Json& place) {
+    Status add_point(const Json& place, const OverlayShape& style) {
         if (place.empty()) return {};  // RFC 7946: an empty geometry is like none
+        OverlayShape point = style;
         if (Status added = take_place(point, place); !added) return added;
         taken.shapes.push_back(std::move(point));
+        return {};
+    }
+
+    Status add_line(const Json& places, const OverlayShape& style) {
+        OverlayShape line = style;
+        line.label.clear();  // only points have one
+        for (const Json& place : places)
+            if (Status added = take_place(line, place); !added) return added;
+        if (line.points.size() > 1) taken.shapes.push_back(std::move(line));
         return {};
     }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,9 +39,11 @@ std::vector<std::string> fields_of(std::string_view text) {
 std::optional<double> number_of(std::string_view text) {
     double value = 0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    const bool is_number = problem == std::errc{} && end == text.data() + text.size();
+    return is_number && std::isfinite(value) ? std::optional{value} : std::nullopt;
 }
+
+constexpr std::size_t longest_line = 10'000;
 
 class PlacefileReader {
   public:
@@ -48,6 +51,7 @@ class PlacefileReader {
         while (!text.empty()) {
             const std::size_t end = std::min(text.find('\n'), text.size());
             ++number_;
+            if (end > longest_line) return fail(ErrorCode::corrupt, "line {} is too long", number_);
             if (Status read = take_line(trimmed(text.substr(0, end))); !read)
                 return fail(read.error().code, "line {}: {}", number_, read.error().message);
             text.remove_prefix(std::min(end + 1, text.size()));
@@ -77,7 +81,11 @@ class PlacefileReader {
     Status take_statement(std::string_view name, std::string_view value) {
         ++statements_;
         if (name == "End") {
-            end_block();
+            if (is_in_inner_block_) {
+                is_in_inner_block_ = false;
+            } else {
+                end_block();
+            }
             return {};
         }
         if (name == "Color") return take_color(value);
@@ -85,15 +93,20 @@ class PlacefileReader {
         if (name == "Text" || name == "Place" || name == "Icon") return take_point(name, value);
         if (name == "Object") {
             end_block();
+            is_in_inner_block_ = false;
             block_ = Block::object;
             return take_object(value);
         }
         const bool is_line = name == "Line" || name == "Polygon";
         const bool is_block = is_line || name == "Triangles" || name == "Image";
         if (!is_block) return {};  // titles, fonts, refresh times and the like
-        const bool is_in_object = block_ == Block::object;
-        if (!is_in_object) end_block();
-        if (!is_line || is_in_object) {
+        if (block_ == Block::object) {
+            ++taken.unknown;
+            is_in_inner_block_ = true;
+            return {};
+        }
+        end_block();
+        if (!is_line) {
             ++taken.unknown;
             block_ = Block::unknown;
             return {};
@@ -109,7 +122,8 @@ class PlacefileReader {
     Status take_color(std::string_view value) {
         Rgba8 color = {0, 0, 0, 255};
         std::string words(value);
-        std::ranges::replace(words, ',', ' ');
+        std::ranges::replace_if(
+            words, [](char letter) { return letter == ',' || letter == '\t'; }, ' ');
         std::size_t part = 0;
         std::string_view rest = words;
         while (part < 3) {
@@ -160,7 +174,7 @@ class PlacefileReader {
             point.points.push_back(*place);
         }
         const std::size_t text = name == "Text" ? 3 : 2;
-        if (name != "Icon" && fields.size() > text) point.label = fields[text];
+        if (name != "Icon" && fields.size() > text) point.label = shape_label(fields[text]);
         taken.shapes.push_back(std::move(point));
         return {};
     }
@@ -174,24 +188,40 @@ class PlacefileReader {
 
     Status take_place_line(std::string_view line) {
         if (block_ == Block::none) return fail(ErrorCode::corrupt, "it is no statement");
-        if (block_ != Block::line) return {};
-        const auto place = place_of(fields_of(line));
+        if (block_ != Block::line || is_in_inner_block_) return {};
+        const auto place = place_of(fields_of(trimmed(line.substr(0, line.find(';')))));
         if (!place) return pass_on(place);
         shape_.points.push_back(*place);
+        // A polygon may have several contours. Each ends where it begins.
+        const bool is_contour = is_area_ && shape_.points.size() > 2 &&
+                                is_same_place(shape_.points.front(), shape_.points.back());
+        if (is_contour) end_line();
         return {};
     }
 
+    static bool is_same_place(grid::GeoPoint a, grid::GeoPoint b) {
+        return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
+    }
+
+    // Adds the line, and begins another one like it.
+    void end_line() {
+        OverlayShape next = shape_;
+        next.points.clear();
+        const bool is_open = is_area_ && shape_.points.size() > 1 &&
+                             !is_same_place(shape_.points.front(), shape_.points.back());
+        if (is_open) shape_.points.push_back(shape_.points.front());
+        if (shape_.points.size() > 1) taken.shapes.push_back(std::move(shape_));
+        shape_ = std::move(next);
+    }
+
     void end_block() {
-        if (block_ == Block::line && shape_.points.size() > 1) {
-            if (is_area_) shape_.points.push_back(shape_.points.front());
-            taken.shapes.push_back(std::move(shape_));
-        }
-        shape_ = {};
+        if (block_ == Block::line) end_line();
         block_ = Block::none;
     }
 
     std::size_t number_ = 0, statements_ = 0, points_ = 0;
     Block block_ = Block::none;
+    bool is_in_inner_block_ = false;  // a block in an Object, whose places are pixels
     bool is_area_ = false;
     OverlayShape style_, shape_;
     grid::GeoPoint object_;

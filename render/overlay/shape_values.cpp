@@ -41,6 +41,14 @@ Result<grid::GeoPoint> shape_place(double latitude_deg, double longitude_deg) {
     return grid::GeoPoint{latitude_deg, longitude_deg};
 }
 
+std::string shape_label(std::string_view text) {
+    constexpr int most_characters = 80;
+    std::size_t end = 0;
+    for (int i = 0; i < most_characters && end < text.size(); ++i)
+        end += std::max<std::size_t>(1, utf8_length(text.substr(end)));
+    return printable(text.substr(0, end));
+}
+
 Result<Rgba8> shape_color(std::string_view text) {
     const bool is_short = text.size() == 4;
     const auto wrong = [text] {

@@ -79,6 +79,42 @@ TEST(GeoJson, EveryGeometryIsRead) {
     EXPECT_EQ(shapes_in(R"({"type": "Point", "coordinates": []})"), 0U);
 }
 
+// 2026-11-30: a point within a million lists ended the program.
+TEST(GeoJson, AGeometryHasAsManyListsAsItsKind) {
+    const auto nested = [](const std::string& type, std::size_t lists) {
+        return shapes_of_geojson("{\"type\": \"" + type + "\", \"coordinates\": " +
+                                 std::string(lists, '[') + "1, 2" + std::string(lists, ']') + "}");
+    };
+    EXPECT_EQ(nested("Point", 1)->shapes.size(), 1U);
+    EXPECT_EQ(nested("MultiPoint", 2)->shapes.size(), 1U);
+    for (const char* type : {"Point", "MultiPoint", "LineString", "Polygon", "MultiPolygon"})
+        for (const std::size_t lists : {std::size_t{5}, std::size_t{1'000'000}})
+            EXPECT_FALSE(nested(type, lists)) << type << lists;
+}
+
+// 2026-11-30: each of many points had a copy of a title of a megabyte.
+TEST(GeoJson, LabelsAreShortAndLegible) {
+    const std::string text = R"({"type": "Feature", "properties": {"title": ")" +
+                             std::string(1'000'000, 'x') +
+                             R"("}, "geometry": {"type": "MultiPoint", "coordinates": [[1, 2]]}})";
+    EXPECT_EQ(shapes_of_geojson(text)->shapes.at(0).label, std::string(80, 'x'));
+    const auto latin = shapes_of_placefile(
+        "Place: 35, -98, Caf\xe9 Nu\xc3\xb1"
+        "ez\n");
+    ASSERT_TRUE(latin);
+    EXPECT_EQ(latin->shapes.at(0).label,
+              "Caf\\xe9 Nu\xc3\xb1"
+              "ez")
+        << "a byte is no UTF-8";
+}
+
+TEST(GeoJson, APropertyWithTheCommonNameOfATimeMayBeAnything) {
+    const auto road = shapes_of_geojson(R"({"type": "Feature", "properties": {"begin": "Main St"},
+        "geometry": {"type": "Point", "coordinates": [1, 2]}})");
+    ASSERT_TRUE(road) << road.error().message;
+    EXPECT_FALSE(road->shapes.at(0).from);
+}
+
 TEST(GeoJson, DamageIsNamedWithItsFeature) {
     const auto reason = [](const std::string& text) {
         const auto read = shapes_of_geojson(text);
@@ -149,6 +185,26 @@ TEST(Placefile, IsReadAsItsSpecificationHasIt) {
     EXPECT_EQ(read->shapes[4].label, "spotter");
 }
 
+// Lines in an object are pixels. What follows in the object is still at its place.
+TEST(Placefile, ABlockInAnObjectEndsByItself) {
+    const auto read = shapes_of_placefile(
+        "Object: 35, -97\nLine: 2, 0\n0, 0\n10, 10\nEnd:\nText: 120, 0, 1, \"a\"\nEnd:\n"
+        "Text: 36, -98, 1, \"b\"\n");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->shapes.size(), 2U);
+    EXPECT_EQ(read->shapes[0].points[0].latitude_deg, 35);
+    EXPECT_EQ(read->shapes[1].points[0].latitude_deg, 36);
+}
+
+TEST(Placefile, APolygonMayHaveContoursAndComments) {
+    const auto read = shapes_of_placefile(
+        "Polygon:\n35, -98 ; first\n35, -97\n36, -97\n35, -98\n33, -98\n33, -97\n34, -97\nEnd:\n");
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read->shapes.size(), 2U);
+    EXPECT_EQ(read->shapes[0].points.size(), 4U);
+    EXPECT_EQ(read->shapes[1].points.size(), 4U) << "the last contour is closed, too";
+}
+
 TEST(Placefile, DamageIsNamedWithItsLine) {
     const auto reason = [](const std::string& text) {
         const auto read = shapes_of_placefile(text);
@@ -158,6 +214,8 @@ TEST(Placefile, DamageIsNamedWithItsLine) {
     EXPECT_THAT(reason("Title: a\nhello\n"), HasSubstr("line 2: it is no statement"));
     EXPECT_THAT(reason("Line: 1\n33, x\nEnd:\n"), HasSubstr("line 2: '33' does not begin"));
     EXPECT_THAT(reason("Color: 1 2\n"), HasSubstr("line 1: '1 2' is no color"));
+    EXPECT_THAT(reason("Color: nan nan nan\n"), HasSubstr("is no color"));
+    EXPECT_THAT(reason("Text:" + std::string(20'000, ',')), HasSubstr("line 1 is too long"));
     EXPECT_THAT(reason("TimeRange: now then\n"), HasSubstr("'now' is no time"));
     EXPECT_THAT(reason("Text: 95, 0, 1, \"x\"\n"), HasSubstr("95, 0 is no place"));
 }

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/image/shades.h"
 #include "render/frame/overlay_text.h"
+#include "render/image/shades.h"
 #include "render/map/map_ground.h"
 #include "stormcellar/render/render.h"
 #include "tests/render/synthetic_storm.h"
@@ -136,6 +136,23 @@ TEST(ShapeMarks, AnEdgeAcrossTheDateLineGoesTheShortWay) {
     ASSERT_EQ(marks.size(), 1U);
     ASSERT_EQ(marks[0].lines.size(), 1U);
     EXPECT_EQ(marks[0].lines[0].size(), 5U) << "four parts of 0.25 degrees";
+}
+
+// 2026-11-30: a zigzag of 200 kB across the earth took a minute and 2 GB.
+TEST(ShapeMarks, EdgesFarAwayAndTooManyEdgesStayWhole) {
+    OverlayShape zigzag, near;
+    for (int i = 0; i < 40'000; ++i) {
+        zigzag.points.push_back({0, i % 2 == 0 ? 0.0 : 179.0});
+        near.points.push_back({i % 2 == 0 ? 30.0 : 40.0, -97});
+    }
+    for (const OverlayShape& shape : {zigzag, near}) {
+        const ShapedMap map({shape});
+        std::size_t points = 0;
+        for (const ShapeMark& mark : map.marks())
+            for (const auto& line : mark.lines)
+                points += line.size();
+        EXPECT_LE(points, 250'000U);
+    }
 }
 
 // A camera on the ground sees only a part of a line that leads past it.

@@ -83,6 +83,17 @@ TEST_F(Overlays, AreReadAgainWhenAFileChangesOrComes) {
     EXPECT_EQ(collection()["features"].size(), 0U);
 }
 
+TEST_F(Overlays, WhatIsTooMuchIsLeftOut) {
+    std::string line = R"({"type": "LineString", "coordinates": [[1, 2])";
+    for (int i = 0; i < 150'000; ++i)
+        line += ", [1, 2]";
+    write("a.geojson", line + "]}");
+    write("b.geojson", line + "]}");
+    const json read = collection();
+    EXPECT_EQ(read["features"].size(), 1U);
+    EXPECT_EQ(read["left_out"], json::parse(R"(["b.geojson: too many points"])"));
+}
+
 TEST_F(Overlays, OtherAddressesAreNotFound) {
     for (const char* path : {"/overlays/other.geojson", "/overlays/warnings",
                              "/overlays/warnings/a.geojson", "/overlays/..geojson"})

@@ -43,7 +43,7 @@ Answer api_view(const ApiCall& call) {
     json["exaggeration"] = fitted.vertical_exaggeration;
     json["opacity"] = fitted.opacity;
     json["has_echo"] = fitted.has_echo;
-    json["is_clear_air"] = render::is_clear_air(outline);
+    json["is_clear_air"] = scene.moment == level2::Moment::ref && render::is_clear_air(outline);
     return json_answer(call.request, json);
 }
 

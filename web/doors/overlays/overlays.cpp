@@ -13,8 +13,8 @@ Answer OverlaysDoor::answer(const Request& request) {
     const auto path = segments_of(request.path);
     if (path.size() == 1) {
         nlohmann::ordered_json names = nlohmann::ordered_json::array();
-        for (const ConfiguredOverlay& overlay : overlays_.overlays())
-            names.push_back({{"name", overlay.name}});
+        for (const std::string& name : overlays_.names())
+            names.push_back({{"name", name}});
         const nlohmann::ordered_json document = {{"overlays", std::move(names)}};
         return text_answer_to(request, "application/json", document.dump() + "\n");
     }

@@ -17,8 +17,7 @@ namespace stormcellar::web {
 
 class OverlaysDoor final : public Door {
   public:
-    explicit OverlaysDoor(std::vector<ConfiguredOverlay> overlays)
-        : overlays_(std::move(overlays)) {}
+    explicit OverlaysDoor(const std::vector<ConfiguredOverlay>& overlays) : overlays_(overlays) {}
     Answer answer(const Request& request) override;
 
   private:

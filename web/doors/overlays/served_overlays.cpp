@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-// Returns the files of an overlay. A file that is not there is one of them, so that a client learns
-// that it is missing.
+// Returns the files of an overlay. A file that is not there is one of them, and so is a directory
+// that cannot be listed, so that a client learns of it.
 std::vector<fs::path> files_of(const ConfiguredOverlay& overlay) {
     std::error_code problem;
     if (!fs::is_directory(overlay.path, problem)) return {overlay.path};
@@ -28,6 +28,7 @@ std::vector<fs::path> files_of(const ConfiguredOverlay& overlay) {
         if (!is_hidden && entry->is_regular_file(unknown)) files.push_back(entry->path());
     }
     std::ranges::sort(files);
+    if (problem) files.push_back(overlay.path);
     return files;
 }
 
@@ -70,20 +71,34 @@ ordered_json feature_of(const render::OverlayShape& shape) {
              {{"type", is_point ? "Point" : "LineString"}, {"coordinates", std::move(places)}}}};
 }
 
+std::size_t points_of(const render::ShapeOverlay& shapes) {
+    std::size_t points = 0;
+    for (const render::OverlayShape& shape : shapes.shapes)
+        points += shape.points.size();
+    return points;
+}
+
 std::string made_of(const std::vector<fs::path>& files) {
     ordered_json features = ordered_json::array(), left_out = ordered_json::array();
+    std::size_t points = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        const std::string name = printable(files[i].filename().native());
+        const auto leave_out = [&](std::string_view why) {
+            left_out.push_back(fmt::format("{}: {}", printable(files[i].filename().native()), why));
+        };
         if (i >= ServedOverlays::most_files) {
-            left_out.push_back(
-                fmt::format("{}: is beyond the first {} files", name, ServedOverlays::most_files));
+            leave_out("too many files");
             continue;
         }
         const auto shapes = render::read_shape_file(files[i]);
         if (!shapes) {
-            left_out.push_back(fmt::format("{}: {}", name, without_paths(shapes.error().message)));
+            leave_out(without_paths(shapes.error().message));
             continue;
         }
+        if (points + points_of(*shapes) > ServedOverlays::most_points) {
+            leave_out("too many points");
+            continue;
+        }
+        points += points_of(*shapes);
         for (const render::OverlayShape& shape : shapes->shapes)
             features.push_back(feature_of(shape));
     }
@@ -94,17 +109,31 @@ std::string made_of(const std::vector<fs::path>& files) {
 
 }  // namespace
 
+ServedOverlays::ServedOverlays(const std::vector<ConfiguredOverlay>& overlays) {
+    for (const ConfiguredOverlay& overlay : overlays)
+        overlays_.push_back(std::make_unique<Overlay>(overlay));
+}
+
+std::vector<std::string> ServedOverlays::names() const {
+    std::vector<std::string> names;
+    for (const auto& overlay : overlays_)
+        names.push_back(overlay->configured.name);
+    return names;
+}
+
 std::optional<Text> ServedOverlays::geojson(std::string_view name) const {
-    const auto overlay = std::ranges::find(overlays_, name, &ConfiguredOverlay::name);
-    if (overlay == overlays_.end()) return std::nullopt;
-    const auto files = files_of(*overlay);
+    const auto found = std::ranges::find_if(
+        overlays_, [name](const auto& overlay) { return overlay->configured.name == name; });
+    if (found == overlays_.end()) return std::nullopt;
+    Overlay& overlay = **found;
+    const auto files = files_of(overlay.configured);
     std::string stamp = stamp_of(files);
-    const MutexLock lock(mutex_);
-    const auto known = made_.find(name);
-    if (known != made_.end() && known->second.stamp == stamp) return known->second.text;
-    const Text text = text_of(made_of(files));
-    made_.insert_or_assign(std::string(name), Made{std::move(stamp), text});
-    return text;
+    const MutexLock lock(overlay.mutex);
+    if (overlay.text == nullptr || overlay.stamp != stamp) {
+        overlay.text = text_of(made_of(files));
+        overlay.stamp = std::move(stamp);
+    }
+    return overlay.text;
 }
 
 }  // namespace stormcellar::web

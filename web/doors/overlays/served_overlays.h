@@ -5,19 +5,23 @@
 // such files. The directory's files are read in the order of their names; names that begin with a
 // dot, and directories in it, are left out. The text is made again when a file has changed.
 //
+// An overlay has at most a quarter of a million points, from at most 256 files; further files are
+// left out.
+//
 // Each feature has a Point or a LineString, and of these properties those that are known: "stroke",
 // "stroke-width", "name", "begin" and "end". The collection's member "left_out" lists files that
 // cannot be read, with the reason; the other files are served all the same.
 //
-// Threads   Many threads may use it. One makes the text of an overlay, and others that want it
-// wait.
+// Threads   Many threads may use it. One makes the text of an overlay, and others that want the
+// same
+//           overlay wait.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "stormcellar/base/mutex.h"
@@ -28,24 +32,23 @@ namespace stormcellar::web {
 
 class ServedOverlays {
   public:
-    // The files of an overlay of a directory that are read; further ones are left out.
-    static constexpr std::size_t most_files = 256;
+    static constexpr std::size_t most_files = 256, most_points = 250'000;
 
-    explicit ServedOverlays(std::vector<ConfiguredOverlay> overlays)
-        : overlays_(std::move(overlays)) {}
+    explicit ServedOverlays(const std::vector<ConfiguredOverlay>& overlays);
 
-    [[nodiscard]] const std::vector<ConfiguredOverlay>& overlays() const { return overlays_; }
+    [[nodiscard]] std::vector<std::string> names() const;
     // Returns the overlay of this name as GeoJSON; none if there is no such overlay.
     [[nodiscard]] std::optional<Text> geojson(std::string_view name) const;
 
   private:
-    struct Made {
-        std::string stamp;  // names, sizes and times of the files
-        Text text;
+    struct Overlay {
+        explicit Overlay(ConfiguredOverlay of) : configured(std::move(of)) {}
+        const ConfiguredOverlay configured;
+        Mutex mutex;
+        std::string stamp STORMCELLAR_GUARDED_BY(mutex);  // names, sizes and times of the files
+        Text text STORMCELLAR_GUARDED_BY(mutex);
     };
-    const std::vector<ConfiguredOverlay> overlays_;
-    mutable Mutex mutex_;
-    mutable std::map<std::string, Made, std::less<>> made_ STORMCELLAR_GUARDED_BY(mutex_);
+    std::vector<std::unique_ptr<Overlay>> overlays_;
 };
 
 }  // namespace stormcellar::web
