@@ -175,6 +175,15 @@ class Archives(unittest.TestCase):
         self.assert_empty(simulated["/VCP-767/sweep_0"], 2)
         self.assertNotIn("/VCP-32/sweep_7", getattr(real, "groups", real))
 
+    def test_longer_radials_of_the_oldest_volume_are_kept(self):
+        files = [simulate(self.folder, minute, [{**LOW, "waveform": waveform}])
+                 for minute, waveform in enumerate(("batch", "doppler"))]
+        group = stormcellar.open_archive(make_catalog(self.folder, files), "XSYN")["/VCP-767/sweep_0"]
+        sweeps = [stormcellar.open_volume(file, sort=False)["/sweep_0"] for file in files]
+        self.assertGreater(sweeps[0].sizes["range"], sweeps[1].sizes["range"])
+        for step, sweep in enumerate(sweeps):
+            self.assert_same(group, step, sweep)
+
     def test_missing_rays_have_no_values(self):
         gap = "\n[[instrument.missing_radials]]\nfrom_azimuth_deg = 30\nto_azimuth_deg = 40\n"
         file = simulate(self.folder, 0, [MIDDLE], gap)
