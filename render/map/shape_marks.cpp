@@ -1,6 +1,7 @@
 #include "render/map/shape_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/degree.h"
@@ -64,25 +65,32 @@ class ShapePlanner {
                p.y <= lines_.geometry->height();
     }
 
-    // Returns in how many parts an edge is split. Edges that are far from the grid stay whole, and
-    // so do edges after a very large number of parts, so that a hostile file takes little time.
-    [[nodiscard]] int parts_of(grid::GeoPoint from, double north_deg, double east_deg) {
+    // Returns true if an edge may be in the picture: if it meets the surroundings of the grid.
+    [[nodiscard]] bool is_near(grid::GeoPoint from, double north_deg, double east_deg) const {
         const grid::GridSpec& spec = *lines_.spec;
         const double reach_deg =
             near_deg + std::max(spec.nx * spec.cell_width_m(), spec.ny * spec.cell_height_m()) /
                            meters_a_degree;
-        const double north_of_deg = from.latitude_deg - spec.center_latitude_deg;
-        const double east_of_deg =
-            std::remainder(from.longitude_deg - spec.center_longitude_deg, 360);
+        const auto meets = [](double begin, double length, double reach) {
+            return std::min(begin, begin + length) < reach &&
+                   std::max(begin, begin + length) > -reach;
+        };
+        if (!meets(from.latitude_deg - spec.center_latitude_deg, north_deg, reach_deg))
+            return false;
         const double shrink = std::max(0.1, std::cos(spec.center_latitude_deg * degree));
-        const bool is_near =
-            std::min(std::abs(north_of_deg), std::abs(north_of_deg + north_deg)) <
-                reach_deg + std::abs(north_deg) &&
-            std::min(std::abs(east_of_deg), std::abs(east_of_deg + east_deg)) * shrink <
-                reach_deg + std::abs(east_deg);
+        const double begin_deg =
+            std::remainder(from.longitude_deg - spec.center_longitude_deg, 360);
+        return std::ranges::any_of(std::array{-360.0, 0.0, 360.0}, [&](double turn_deg) {
+            return meets(begin_deg + turn_deg, east_deg, reach_deg / shrink);
+        });
+    }
+
+    // Returns in how many parts an edge is split: one, after a very large number of parts of all
+    // edges.
+    [[nodiscard]] int parts_of(double north_deg, double east_deg) {
         const double length_deg = std::max(std::abs(north_deg), std::abs(east_deg));
         const int parts = std::max(1, static_cast<int>(std::ceil(length_deg / longest_part_deg)));
-        if (!is_near || parts > parts_left_) return 1;
+        if (parts > parts_left_) return 1;
         parts_left_ -= parts - 1;
         return parts;
     }
@@ -104,7 +112,12 @@ class ShapePlanner {
             const double north_deg = places[i].latitude_deg - from.latitude_deg;
             const double east_deg =
                 std::remainder(places[i].longitude_deg - from.longitude_deg, 360);
-            const int parts = parts_of(from, north_deg, east_deg);
+            if (!is_near(from, north_deg, east_deg)) {
+                all.emplace_back();
+                add(places[i]);
+                continue;
+            }
+            const int parts = parts_of(north_deg, east_deg);
             for (int part = 1; part <= parts; ++part) {
                 const double share = static_cast<double>(part) / parts;
                 add({from.latitude_deg + share * north_deg, from.longitude_deg + share * east_deg});
