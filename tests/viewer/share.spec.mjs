@@ -166,14 +166,15 @@ test.describe('sharing', { tag: '@full' }, () => {
 
   // 2026-11-29: the page said that there is no raw file.
   test('the page says nothing of the raw file of an evicted grid', async ({ page, viewer, server: { station } }) => {
-    await viewer.open(`domain=${station}&moment=REF&folded=0`);
-    await page.evaluate((time) => {
+    // The facts of the grid do not come.
+    await page.addInitScript(() => {
       const own = window.fetch;
       const gone = async () => new Response('{"error": "no such grid"}', { status: 404, headers: { 'Stormcellar-Status': '404' } });
-      window.fetch = (url, ...more) => (decodeURIComponent(url).endsWith(time) ? gone() : own(url, ...more));
-    }, await drawnTime(viewer));
+      window.fetch = (url, ...more) => (/\/grids\/[^/]+\/REF\/[^/]+$/.test(url) ? gone() : own(url, ...more));
+    });
+    await viewer.open(`domain=${station}&moment=REF&folded=0`);
     await viewer.press('raw');
-    await expect(state(viewer)).toHaveText(/^There is no picture/);
+    await expect(state(viewer)).toHaveText(`No REF of ${station} for this time. Choose another time or radar.`);
     await expect(viewer.byId('tool-says')).toHaveText('');
   });
 
