@@ -165,11 +165,12 @@ export class App {
         this.addressBar.writeSoon();
         this.tell('camera');
     }
-    // Returns true if the camera and the heights are those with which the page first shows a grid.
+    // Returns true if camera, heights and opacity are those with which the page first shows a grid.
     get isFirstView(): boolean {
-        const { camera, exaggeration, isFlat } = this.state;
-        const isFirstHeight = isFlat || exaggeration === this.first.exaggeration;
-        return isFirstHeight && JSON.stringify(camera) === JSON.stringify(this.firstCamera);
+        const { camera, exaggeration, opacity, isFlat } = this.state;
+        const { first } = this;
+        const isFirstEcho = isFlat || (exaggeration === first.exaggeration && opacity === first.opacity);
+        return isFirstEcho && JSON.stringify(camera) === JSON.stringify(this.firstCamera);
     }
     private get firstCamera(): Camera {
         return this.state.isFlat ? namedView(usualState.camera, 'top') : { ...this.first.camera };
@@ -181,7 +182,10 @@ export class App {
         Object.assign(this.state, look);
     }
     resetView(): void {
-        if (!this.state.isFlat) this.state.exaggeration = this.first.exaggeration;
+        if (!this.state.isFlat) {
+            this.state.exaggeration = this.first.exaggeration;
+            this.state.opacity = this.first.opacity;
+        }
         this.moved(this.firstCamera);
         this.changed();
     }

@@ -45,7 +45,8 @@ export class Fitting {
         this.asked = null;
         const late = new Promise<null>((done) => window.setTimeout(() => done(null), mostWaitMs));
         return Promise.race([asked.view, late]).then((view) => {
-            if (!app.wantsFit) return;
+            const isLeft = app.state.domain !== next.domain; // the user chose another domain meanwhile
+            if (!app.wantsFit || isLeft) return;
             app.wantsFit = false;
             if (!view?.has_echo) return;
             const camera = cameraOfFitted(view, boxOf(next.loaded.grid), asked.width, asked.height);

@@ -240,7 +240,7 @@ export interface FittedView {
         field_of_view_deg: number;
         place_m: [number, number, number] | null; // null: outside the grid, as for a grid without echo
     };
-    focus_m: [number, number, number]; // the middle of the echo
+    focus_m: [number, number, number]; // as deep in the picture as the middle of the echo
     exaggeration: number;
     opacity: number;
     has_echo: boolean;
