@@ -63,6 +63,7 @@ constexpr FuzzCase cases[] = {
     {"GridFile", grid_file_seeds, 300, check_grid_file, mutate_grid_file},
     {"Request", request_seeds, 2000, check_request},
     {"Calls", call_seeds, 20, check_calls},
+    {"Shapes", shape_seeds, 2000, check_shapes},
 };
 INSTANTIATE_TEST_SUITE_P(Each, Fuzz, ::testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
         write(directory / "grid_file", stormcellar::fuzz::grid_file_seeds());
         write(directory / "request", stormcellar::fuzz::request_seeds());
         write(directory / "calls", stormcellar::fuzz::call_seeds());
+        write(directory / "shapes", stormcellar::fuzz::shape_seeds());
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_seeds: %s\n", error.what());
         return 1;

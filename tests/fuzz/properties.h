@@ -70,4 +70,8 @@ void check_request(std::span<const std::byte> input);
 // caller has room for, and has no defect. Arrays have the promised size.
 void check_calls(std::span<const std::byte> script);
 
+// Checks a file of shapes, as GeoJSON and as a placefile. An error has one of the promised codes.
+// Every point is on the earth; widths, labels and the number of points are within their limits.
+void check_shapes(std::span<const std::byte> file);
+
 }  // namespace stormcellar::fuzz

@@ -23,5 +23,6 @@ struct Seed {
 [[nodiscard]] std::vector<Seed> grid_file_seeds();
 [[nodiscard]] std::vector<Seed> request_seeds();
 [[nodiscard]] std::vector<Seed> call_seeds();
+[[nodiscard]] std::vector<Seed> shape_seeds();
 
 }  // namespace stormcellar::fuzz
