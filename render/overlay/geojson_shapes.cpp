@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/printable.h"
+#include "render/overlay/event_colors.h"
 #include "render/overlay/shape_file.h"
 #include "render/overlay/shape_values.h"
 
@@ -12,24 +13,6 @@ namespace stormcellar::render {
 namespace {
 
 using Json = nlohmann::json;
-
-struct EventColor {
-    std::string_view event;
-    Rgba8 color;
-};
-// The colors of the National Weather Service's map of hazards.
-constexpr std::array<EventColor, 10> event_colors = {{
-    {"Tornado Warning", {255, 0, 0, 255}},
-    {"Severe Thunderstorm Warning", {255, 165, 0, 255}},
-    {"Flash Flood Warning", {139, 0, 0, 255}},
-    {"Special Marine Warning", {255, 165, 0, 255}},
-    {"Snow Squall Warning", {199, 21, 133, 255}},
-    {"Flood Warning", {0, 255, 0, 255}},
-    {"Flood Advisory", {0, 255, 127, 255}},
-    {"Special Weather Statement", {255, 228, 181, 255}},
-    {"Tornado Watch", {255, 255, 0, 255}},
-    {"Severe Thunderstorm Watch", {219, 112, 147, 255}},
-}};
 
 constexpr std::array begin_names = {"polygon_begin", "onset", "issue", "effective", "begin"};
 constexpr std::array end_names = {"polygon_end", "ends", "expire", "expires", "end"};

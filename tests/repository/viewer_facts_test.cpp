@@ -1,5 +1,6 @@
 // Tests that viewer/src/facts.ts has the facts of the C++ tables that the page needs: moments,
-// units, projections, the usual grid, ranges of options, color files and the colors of the ground.
+// units, projections, the usual grid, ranges of options, color files, the colors of the ground and
+// those of warnings.
 // After a change of a table, write the file with
 //   STORMCELLAR_WRITE_FACTS=1 repository_test --gtest_filter='ViewerFacts.*'
 #include <cstdlib>
@@ -19,6 +20,7 @@
 #include "render/color/moment_look.h"
 #include "render/color/pal_words.h"
 #include "render/image/shades.h"
+#include "render/overlay/event_colors.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/moment.h"
 #include "stormcellar/render/color_table.h"
@@ -160,6 +162,13 @@ std::string colors() {
     return text + "} as const;\n";
 }
 
+std::string event_colors() {
+    std::string text = "export const eventColors = [\n";
+    for (const render::EventColor& known : render::event_colors)
+        text += fmt::format("    {{ event: '{}', color: {} }},\n", known.event, color(known.color));
+    return text + "] as const;\n";
+}
+
 std::string color_files() {
     return fmt::format(
         "export const colorFiles = {{\n    mostBytes: {},\n    mostStops: {},\n"
@@ -197,7 +206,9 @@ std::string facts() {
            "\n// Colors behind the echo, of the dark theme: red, green, blue and, for lines and "
            "the halo, "
            "alpha to 255.\n" +
-           colors();
+           colors() +
+           "\n// Colors of events in the map of hazards of the National Weather Service.\n" +
+           event_colors();
 }
 
 TEST(ViewerFacts, AreThoseOfTheTables) {

@@ -139,3 +139,17 @@ export const dark = {
     quietText: [166, 177, 192],
     halo: [8, 10, 14, 225],
 } as const;
+
+// Colors of events in the map of hazards of the National Weather Service.
+export const eventColors = [
+    { event: 'Tornado Warning', color: [255, 0, 0] },
+    { event: 'Severe Thunderstorm Warning', color: [255, 165, 0] },
+    { event: 'Flash Flood Warning', color: [139, 0, 0] },
+    { event: 'Special Marine Warning', color: [255, 165, 0] },
+    { event: 'Snow Squall Warning', color: [199, 21, 133] },
+    { event: 'Flood Warning', color: [0, 255, 0] },
+    { event: 'Flood Advisory', color: [0, 255, 127] },
+    { event: 'Special Weather Statement', color: [255, 228, 181] },
+    { event: 'Tornado Watch', color: [255, 255, 0] },
+    { event: 'Severe Thunderstorm Watch', color: [219, 112, 147] },
+] as const;
