@@ -29,13 +29,15 @@ const std::vector<std::pair<std::string, Folders>> order = {
     {"tables", {"wire"}},
     {"fields", {"camera", "earth", "wire"}},
     {"map", {"earth", "wire"}},
+    {"overlay", {"camera", "earth"}},
     {"atlas", {"camera", "earth", "fields", "wire"}},
     {"scene", {"camera", "earth", "fields", "tables", "wire"}},
     {"renderer", {"atlas", "camera", "earth", "fields", "scene", "tables", "wire"}},
     {"page",
      {"atlas", "camera", "earth", "fields", "map", "renderer", "scene", "tables", "time", "wire"}},
     {"page/panels",
-     {"atlas", "camera", "earth", "fields", "page", "renderer", "scene", "tables", "time", "wire"}},
+     {"atlas", "camera", "earth", "fields", "overlay", "page", "renderer", "scene", "tables",
+      "time", "wire"}},
     {"page/start", {"earth", "map", "page", "renderer", "scene", "time", "wire"}},
 };
 

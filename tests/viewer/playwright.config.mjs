@@ -75,7 +75,7 @@ export default defineConfig({
     { name: 'dealiased', testMatch: 'dealiased.spec.mjs', use: { volumes: [hurricane] } },
     { name: 'wind', testMatch: 'wind.spec.mjs', use: { volumes: [supercells] } },
     { name: 'newcomer', testMatch: 'newcomer.spec.mjs', use: { volumes: [supercells] } },
-    { name: 'sequence', testMatch: /(time|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
+    { name: 'sequence', testMatch: /(time|overlays|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
     { name: 'region', testMatch: /(region|water)\.spec\.mjs/, use: { volumes: neighbors } },
     { name: 'firefox', testMatch: 'first_picture.spec.mjs', use: { volumes: storms, ...firefox } },
     {

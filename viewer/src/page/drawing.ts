@@ -17,7 +17,7 @@ import { element, pixelRatio, textScale } from './dom';
 import { Ground } from './ground';
 import { drawHeightScale } from './height_scale';
 import { LayerMaker } from './layer_maker';
-import { clearLabels, drawLabels } from './labels';
+import { Rect, clearLabels, drawLabels, placeLabels } from './labels';
 import { Streaming } from './streaming';
 import { texts } from './texts';
 import { Windows } from './windows';
@@ -32,12 +32,21 @@ const longestWishMs = 30_000;
 // Draws over the picture in pixels of the page.
 export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
 
+// Draws shapes on the ground, below the names of the map, and returns the rectangles of its own labels. `taken` are
+// rectangles without room for labels. A pixel of the pen is `ratio` pixels of the picture wide.
+export interface GroundShapes {
+    isOn: boolean; // an overlay is on
+    isWaiting: boolean; // not all shapes of the picture have come
+    draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry, taken: readonly Rect[], ratio: number): Rect[];
+}
+
 export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
     // Let the browser paint on the processor if there is no graphics processor, because that is faster then.
     private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
     private overlays: Overlay[] = [];
+    shapes: GroundShapes | null = null; // null until the program of overlays has come
     isLoadingLayers = false; // the program of a layer has not come (panels/load_layers.ts)
     drawn: DrawnLayers | null = null; // layers of the last picture
     readonly pictureChanged: (() => void)[] = []; // called after each picture
@@ -204,6 +213,7 @@ export class Drawing {
             !this.layers.isWaiting &&
             !this.isLoadingLayers &&
             !this.ground.isWaiting &&
+            !this.shapes?.isWaiting &&
             shown?.moment === state.moment &&
             shown.domain === state.domain &&
             !this.renderer.isLost
@@ -297,13 +307,20 @@ export class Drawing {
         const { pen } = this;
         const ratio = pixelRatio();
         clearLabels(pen);
-        if (this.app.state.hasGround) {
-            pen.save();
-            pen.scale(scale, scale);
-            const scaleOfHeights = drawHeightScale(pen, geometry, this.app.state.units, taken, ratio * scale);
-            drawLabels(pen, geometry, this.ground.marks, [...taken, ...scaleOfHeights], ratio * scale);
-            pen.restore();
-        }
+        const { hasGround, units } = this.app.state;
+        pen.save();
+        pen.scale(scale, scale);
+        const grain = ratio * scale;
+        if (hasGround) taken.push(...drawHeightScale(pen, geometry, units, taken, grain));
+        // Labels of shapes leave room for the names of sites, and take it from the other names.
+        const [sites, others] = [true, false].map((isSite) =>
+            hasGround ? this.ground.marks.filter(({ kind }) => (kind === 'site') === isSite) : [],
+        ) as [Mark[], Mark[]];
+        const named = placeLabels(pen, geometry, sites, taken, grain);
+        taken.push(...named.map(({ rect }) => rect));
+        taken.push(...(this.shapes?.draw(pen, geometry, taken, grain) ?? []));
+        drawLabels(pen, [...named, ...placeLabels(pen, geometry, others, taken, grain)]);
+        pen.restore();
         for (const overlay of this.overlays) {
             pen.save();
             overlay(pen, geometry);

@@ -37,17 +37,27 @@ export function clearLabels(pen: CanvasRenderingContext2D): void {
     pen.scale(pixelRatio(), pixelRatio());
 }
 
-// Draws marks in pixels of the pen. A pixel of the pen is `ratio` pixels of the picture wide. `taken` are the
-// rectangles that the page covers, in pixels of the pen.
-export function drawLabels(
+// A mark with its place, in pixels of the pen.
+interface PlacedMark {
+    mark: Mark;
+    x: number;
+    y: number;
+    left: number; // of the text
+    rect: Rect;
+}
+
+// Places marks where they have room. A pixel of the pen is `ratio` pixels of the picture wide. `taken` are rectangles
+// without room, in pixels of the pen.
+export function placeLabels(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,
     marks: Mark[],
     taken: Rect[],
     ratio: number,
-): void {
+): PlacedMark[] {
     const { width, height } = geometry;
     const full = [...taken];
+    const placed: PlacedMark[] = [];
     const most = Math.max(6, Math.round((width * height) / (ratio * ratio) / 22000));
     let cities = 0;
     for (const mark of [...marks].sort((a, b) => b.rank - a.rank)) {
@@ -56,14 +66,25 @@ export function drawLabels(
         if (!pixel) continue;
         const [x, y] = [pixel[0] / ratio, pixel[1] / ratio];
         if (x < 4 || y < 4 || x > width / ratio - 4 || y > height / ratio - 4) continue;
-        pen.font = mark.kind === 'site' ? fontOf(13, 'bold') : fontOf(12);
-        pen.textBaseline = 'middle';
+        pen.font = fontOfMark(mark);
         const wide = pen.measureText(mark.text).width;
         const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;
         const rect: Rect = { left: Math.min(left, x - 4) - 2, top: y - 9, right: left + wide + 3, bottom: y + 9 };
         if (rect.right > width / ratio || full.some((other) => overlaps(rect, other))) continue;
         full.push(rect);
         if (mark.kind === 'city') ++cities;
+        placed.push({ mark, x, y, left, rect });
+    }
+    return placed;
+}
+
+const fontOfMark = ({ kind }: Mark): string => (kind === 'site' ? fontOf(13, 'bold') : fontOf(12));
+
+export function drawLabels(pen: CanvasRenderingContext2D, placed: PlacedMark[]): void {
+    pen.textAlign = 'left';
+    pen.textBaseline = 'middle';
+    for (const { mark, x, y, left } of placed) {
+        pen.font = fontOfMark(mark);
         if (mark.kind !== 'ring') {
             pen.beginPath();
             pen.arc(x, y, mark.kind === 'site' ? 3.5 : 2.2, 0, 2 * Math.PI);

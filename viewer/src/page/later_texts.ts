@@ -29,6 +29,7 @@ export const panelTexts = {
     commandReads: (raw: string) => `It reads ${raw}. Download Level II gets that file.`,
     commandReadsCache: 'It reads the cache of this server.',
     commandColors: (name: string) => `Its colors are in ${name}, which the page saved.`,
+    commandOverlays: 'Name the files of overlays in --overlay.',
     commandFlat: 'It draws the layer as a map of the grid.',
     noCommand: {
         nothing: 'There is no picture yet.',
@@ -273,6 +274,19 @@ export const layerTexts = {
     planeAt: (height: string) => `${height} above sea level`,
     dealiasSweep: 'Dealiased',
     weatherSweep: 'Weather only',
+    overlays: {
+        title: 'Overlays',
+        add: 'Add file…',
+        addTip: 'Draw a GeoJSON file or placefile over the picture, as if it were dropped on the page',
+        remove: (name: string) => `Remove ${name}`,
+        told: (name: string, shown: string, problem: string) =>
+            [name, [shown, problem].filter(Boolean).join('; ')].filter(Boolean).join(': '),
+        leftOut: (files: string[]) => (files.length > 0 ? `left out: ${files.join('; ')}` : ''),
+        damaged: (name: string, reason: string) => `${name} is not shown: ${reason}.`,
+        tooLarge: (mebibytes: number) => `it has more than ${mebibytes} MiB`,
+        absent: 'the server does not have it',
+        failed: 'it could not be loaded',
+    },
 } as const;
 
 // Texts of the section's plot and of beam glyphs.

@@ -4,7 +4,7 @@ import { shades } from '../renderer/shades';
 import { element, fontOf, make, textScale } from './dom';
 import { haloed } from './labels';
 
-const told = ['title', 'station-told', 'sites-told', 'layers-told'];
+const told = ['title', 'station-told', 'sites-told', 'layers-told', 'overlays-told'];
 const lineHeight = 20;
 const swatch = 10;
 

@@ -24,6 +24,7 @@ const chosen = {
     opacity: 1.8,
     least: -12.5,
     colors: 'safe-velocity',
+    overlays: ['warnings', 'a, b&c'],
 };
 
 test('the address holds every part of a view', () => {
@@ -41,6 +42,7 @@ test('a parameter that makes no sense keeps its usual value', () => {
         assert.deepEqual([state.time, state.opacity, state.least], ['latest', usualState.opacity, null]);
     }
     assert.equal(stateOf(`#domain=${'x'.repeat(5000)}`).domain.length, 100);
+    assert.deepEqual(stateOf('#overlay=&overlay=b&overlay=a&overlay=b').overlays, ['b', 'a']);
 });
 
 test('an empty address gives the usual view', () => {

@@ -39,6 +39,7 @@ export interface ViewState {
     countsFetches: boolean; // the page counts the texels that a pixel asks for
     drafts: Draft[]; // tables that the user made, at most one for each moment; they override `colors`
     layers: Layers;
+    overlays: readonly string[]; // names of the server's overlays that are on
     units: Units;
 }
 
@@ -59,10 +60,12 @@ export const usualState: ViewState = {
     countsFetches: false,
     drafts: [],
     layers: usualLayers,
+    overlays: [],
     units: usualUnits,
 };
 
 const mostDrafts = Object.keys(moments).length;
+const mostOverlays = 20;
 
 const rounded = (value: number, places: number): string => String(Number(value.toFixed(places)));
 
@@ -92,6 +95,7 @@ export function addressOf(state: ViewState): string {
     if (state.countsFetches) parts.push(['count-fetches', '1']);
     for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
     parts.push(...layersAddress(state.layers));
+    for (const name of state.overlays) parts.push(['overlay', name]);
     if (state.isFlat && state.layers.hasVolume) parts.push(['volume', '1']);
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
     return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
@@ -166,6 +170,7 @@ export function stateOf(text: string): ViewState {
         countsFetches: query.get('count-fetches') === '1',
         drafts: draftsOf(query.getAll('table')),
         layers: isFlat && !query.has('volume') ? flatLayers(layersOf(query)) : layersOf(query),
+        overlays: [...new Set(query.getAll('overlay'))].filter((name) => name !== '').slice(0, mostOverlays),
         units: unitsOf(query.get('units') ?? ''),
     };
 }

@@ -276,6 +276,15 @@ export function askEvents(id: string, signal: AbortSignal): Promise<Response> {
 export function cells(domain: string, time: string): Promise<unknown> {
     return told(`api/v1/cells?${new URLSearchParams({ area: domain, time })}`);
 }
+// Returns the names of the server's overlays, which are files of lines and points, such as warnings.
+export async function overlayNames(): Promise<string[]> {
+    return (await told<{ overlays: { name: string }[] }>('overlays')).overlays.map(({ name }) => name);
+}
+// Returns an overlay as GeoJSON, which overlay/geojson_shapes.ts reads, and the files that are not in it, with reasons.
+export async function overlayShapes(name: string): Promise<{ left_out?: string[] }> {
+    const answer = await ask(`overlays/${encodeURIComponent(name)}.geojson`, { cache: 'no-cache' });
+    return (await answer.json()) as { left_out?: string[] };
+}
 export interface Tables {
     tables: ColorTable[];
     usual: Record<string, string>; // name of the usual table of each moment

@@ -14,6 +14,7 @@ import { Hover } from './hover';
 import { LayersPanel } from './layers_panel';
 import { addLook } from './look';
 import { addLoopEnds } from './loop_ends';
+import { OverlayRows } from './overlay_rows';
 import { Reader } from './reader';
 import { addScale } from './scale_mark';
 import { ScanPanel } from './scan_panel';
@@ -42,6 +43,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     hover.begin();
     new ToolsPanel(app, drawing, pointers, facts).begin(keys);
     new LayersPanel(app, drawing, pointers).begin(keys);
+    new OverlayRows(app, drawing).begin();
     new ScanPanel(app, drawing).begin(keys);
     addLoopEnds(app);
     new StationLine(app, drawing, facts).begin();

@@ -51,6 +51,7 @@ export function addPanels(parts: PageParts): void {
             need();
         });
     keys.onEarly = need;
+    document.addEventListener('dragenter', need); // a file may be dropped
     // Let the browser show the picture first.
     drawing.pictureFinished.push(() => window.setTimeout(need, afterPictureMs));
 }

@@ -105,6 +105,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
     const raw = rawFile.known;
     const notes = [raw ? panelTexts.commandReads(raw) : panelTexts.commandReadsCache];
     if (!state.layers.hasVolume && !state.layers.section) notes.push(panelTexts.commandFlat);
+    if (drawing.shapes?.isOn) notes.push(panelTexts.commandOverlays);
     const give = (colors: string, ...of: string[]) =>
         copy(
             app,
