@@ -22,8 +22,9 @@ template <class Names>
 std::string text_of(const Json& properties, const Names& names) {
     for (const char* name : names) {
         const auto found = properties.find(name);
-        if (found != properties.end() && found->is_string() && !found->empty())
-            return found->template get<std::string>();
+        if (found == properties.end() || !found->is_string()) continue;
+        const auto& text = found->template get_ref<const std::string&>();
+        if (!text.empty()) return text;
     }
     return {};
 }

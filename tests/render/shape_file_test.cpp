@@ -108,6 +108,15 @@ TEST(GeoJson, LabelsAreShortAndLegible) {
         << "a byte is no UTF-8";
 }
 
+TEST(GeoJson, AnEmptyTextIsNone) {
+    const auto read = shapes_of_geojson(R"({"type": "Feature",
+        "properties": {"title": "", "name": "a", "onset": "", "issue": "2016-06-01T15:00:00Z"},
+        "geometry": {"type": "Point", "coordinates": [1, 2]}})");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->shapes.at(0).label, "a");
+    EXPECT_EQ(read->shapes.at(0).from, utc("2016-06-01T15:00:00Z"));
+}
+
 TEST(GeoJson, APropertyWithTheCommonNameOfATimeMayBeAnything) {
     const auto road = shapes_of_geojson(R"({"type": "Feature", "properties": {"begin": "Main St"},
         "geometry": {"type": "Point", "coordinates": [1, 2]}})");
