@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "render/frame/overlay_text.h"
 #include "render/frame/hail_text.h"
+#include "render/frame/overlay_text.h"
 #include "render/frame/picture_metadata.h"
 #include "render/options/fitted_view.h"
 #include "stormcellar/render/render.h"
