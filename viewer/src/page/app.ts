@@ -48,7 +48,7 @@ export interface Shown {
     isBetween: boolean; // made between volumes
 }
 
-// How the page first looks at the echo of a domain.
+// The camera, heights and opacity with which the page first shows a domain.
 type Look = Pick<ViewState, 'camera' | 'exaggeration' | 'opacity'>;
 const usualLook: Look = {
     camera: usualState.camera,

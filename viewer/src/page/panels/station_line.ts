@@ -42,7 +42,7 @@ export class StationLine {
         this.of = shown;
         const isOurs = () => this.of === shown;
         const { sites } = shown.loaded.grid;
-        // What the server does not tell is left out.
+        // If one of the two answers fails, the line shows the other alone.
         const rows =
             isDoppler(shown.moment) && sites.length === 1 ? this.drawing.layers.rowsOf(shown, sites[0]!.icao) : null;
         const found = await Promise.allSettled([rows, this.facts.ask()]);
