@@ -75,12 +75,22 @@ void FeedRun::look() {
     stretch_.most_waiting = std::max(stretch_.most_waiting, stretch_.last.waiting);
 }
 
+// Does not count a volume that ended, and got its grid, before the feed's clock began.
+void FeedRun::forget_before_the_clock(std::string_view grid) {
+    const std::scoped_lock lock(mutex_);
+    const auto sent = sent_.find(std::string(grid));
+    if (sent == sent_.end()) return;
+    --unfinished_;
+    --stretch_.volumes;
+    sent_.erase(sent);
+}
+
 bool FeedRun::wait_until_idle(double most_s) {
     const auto begin = Clock::now();
     auto busy = begin;
     while (seconds_between(begin, Clock::now()) < most_s && daemon_.is_running()) {
         watch_.wait(longest_wait_s);
-        watch_.read([](std::string_view) {});
+        watch_.read([this](std::string_view name) { forget_before_the_clock(name); });
         const DaemonStatus status = daemon_.status();
         if (status.waiting + status.running > 0) busy = Clock::now();
         if (seconds_between(busy, Clock::now()) > idle_s) return true;

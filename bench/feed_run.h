@@ -86,6 +86,7 @@ class FeedRun {
     };
     [[nodiscard]] Status watch(level2::Moment moment);
     [[nodiscard]] Status start(const StretchOptions& options, const std::string& configuration);
+    void forget_before_the_clock(std::string_view grid);
     [[nodiscard]] bool wait_until_idle(double most_s);
     void end_volume(std::size_t volume, const StretchOptions& options);
     void watch_on(const StretchOptions& options);
