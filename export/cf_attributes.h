@@ -20,7 +20,7 @@
 
 namespace stormcellar::netcdf {
 
-using CfValue = std::variant<std::string, double, std::vector<double>>;
+using CfValue = std::variant<std::string, double, int, std::vector<double>>;
 using CfAttributes = std::vector<std::pair<std::string, CfValue>>;
 
 // The names of the two dimensions of a map, and of their coordinates.

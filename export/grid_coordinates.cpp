@@ -24,6 +24,8 @@ void write_attributes(NetcdfBuilder& file, int variable, const CfAttributes& att
             file.text(variable, name.c_str(), *text);
         } else if (const auto* number = std::get_if<double>(&value)) {
             file.number(variable, name.c_str(), *number);
+        } else if (const auto* count = std::get_if<int>(&value)) {
+            file.number(variable, name.c_str(), *count);
         } else {
             file.numbers(variable, name.c_str(), std::get<std::vector<double>>(value));
         }

@@ -1,4 +1,5 @@
-// stormcellar grid FILE... -o OUT.nc: decodes volumes, grids them, and writes the grid as netCDF.
+// stormcellar grid FILE... -o OUT.nc: decodes volumes, grids them, and writes the grid as netCDF or
+// in another format.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -23,6 +24,13 @@
 namespace stormcellar::cli {
 namespace {
 
+// Drops the '/' that shells add to the name of a directory.
+std::string without_slash(const std::string& output) {
+    std::string name = output.substr(0, output.find_last_not_of('/') + 1);
+    const auto* format = grid_export::grid_format_of(name);
+    return format != nullptr && format->check_directory != nullptr ? name : output;
+}
+
 Status check_output(const GridOptions& options, const InputFiles& inputs) {
     for (const InputFile& file : inputs.files()) {
         std::error_code ignored;
@@ -32,6 +40,9 @@ Status check_output(const GridOptions& options, const InputFiles& inputs) {
                         options.files.size() == 1 ? "the input file" : "one of the input files");
         }
     }
+    const auto* format = grid_export::grid_format_of(options.output);
+    if (format != nullptr && format->check_directory != nullptr)
+        return format->check_directory(options.output);
     return check_output_file(
         options.output, grid_export::grid_endings(),
         fmt::format("a grid is written as {}", grid_export::known_grid_formats()), options.json);
@@ -76,6 +87,7 @@ void print_notes(const std::vector<grid::Grid>& grids, const std::vector<MomentR
 int run_grid(GridOptions options, const EffectOptions& effect_options,
              const MosaicOptions& mosaic_options) {
     Stopwatch total;
+    options.output = without_slash(options.output);
     const auto inputs = find_inputs(options);
     if (!inputs) return report_error(inputs.error());
     auto request = parse_request(options);

@@ -21,11 +21,14 @@ namespace stormcellar::grid_export {
 struct GridFormat {
     std::string_view name;                      // "netCDF"
     std::span<const std::string_view> endings;  // of file names; the first is the usual one
-    // Writes the grids of one or several moments into one file, whole or not at all. The grids
-    // share their cells and their time. Errors: bad_argument for grids that the format cannot hold;
-    // internal if a library refuses; those of the file system.
+    // Writes the grids of one or several moments into one file or directory, whole or not at all.
+    // The grids share their cells and their time. Errors: bad_argument for grids that the format
+    // cannot hold; internal if a library refuses; those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
                     std::span<const grid::Grid> grids);
+    // For a format that writes a directory: checks, before long work, that it can. Null for a
+    // format that writes a file.
+    Status (*check_directory)(const std::filesystem::path& path) = nullptr;
 };
 
 // Returns all formats. The first one is the default if no file name chooses one.

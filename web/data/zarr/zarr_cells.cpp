@@ -1,12 +1,10 @@
 #include "web/data/zarr/zarr_cells.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "render/still/map_attributes.h"
-#include "stormcellar/grid/projection.h"
 
 namespace stormcellar::web {
 namespace {
@@ -15,13 +13,8 @@ using grid::brick_edge;
 using grid::BrickKind;
 using grid::CellStatus;
 
-// The cells of a chunk that are within the grid, along one axis.
-struct Stretch {
-    int first = 0, end = 0;
-};
-Stretch stretch_of(int chunk, int side, int cells) {
-    return {chunk * side, std::min((chunk + 1) * side, cells)};
-}
+using zarr::Stretch;
+using zarr::stretch_of;
 
 struct ChunkCells {
     Stretch z, y, x;
@@ -67,13 +60,6 @@ void for_each_cell(const Stretch& x, const Stretch& y, const Stretch& z, const C
                 cell(ix, iy, iz);
 }
 
-template <class Number>
-std::string text_of_numbers(const std::vector<Number>& numbers) {
-    std::string bytes(numbers.size() * sizeof(Number), '\0');
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
-    return bytes;
-}
-
 // Calls `column(index in the chunk, place in the field)` for each column of the chunk.
 template <class Column>
 void for_each_column_of(const render::FlatField& field, const ChunkPlace& place,
@@ -89,10 +75,6 @@ void for_each_column_of(const render::FlatField& field, const ChunkPlace& place,
 
 }  // namespace
 
-int chunk_levels(const grid::GridSpec& spec) {
-    return std::min(spec.nz(), chunk_side);
-}
-
 std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place) {
     const ChunkCells cells(*view.spec, place);
     std::vector<float> values(cells.count(), std::numeric_limits<float>::quiet_NaN());
@@ -107,7 +89,7 @@ std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place) {
                     values[cells.index(ix, iy, iz)] = view.quantization.value_of(code);
             });
         });
-    return text_of_numbers(values);
+    return zarr::bytes_of(values);
 }
 
 std::string status_chunk(const grid::BrickView& view, const ChunkPlace& place) {
@@ -137,7 +119,7 @@ std::string map_value_chunk(const FlatMap& map, const ChunkPlace& place) {
     for_each_column_of(field, place, [&](std::size_t at, std::size_t column) {
         if (field.status[column] == CellStatus::value) values[at] = field.values[column];
     });
-    return text_of_numbers(values);
+    return zarr::bytes_of(values);
 }
 
 std::string map_status_chunk(const FlatMap& map, const ChunkPlace& place) {
@@ -149,25 +131,6 @@ std::string map_status_chunk(const FlatMap& map, const ChunkPlace& place) {
         states[at] = static_cast<char>(render::state_code(field.status[column], at_least));
     });
     return states;
-}
-
-std::string position_chunk(const grid::GridSpec& spec, Position which, const ChunkPlace& place) {
-    const grid::GridProjection projection(spec);
-    std::vector<double> degrees(std::size_t{chunk_side} * chunk_side,
-                                std::numeric_limits<double>::quiet_NaN());
-    const Stretch rows = stretch_of(place.y, chunk_side, spec.ny);
-    const Stretch columns = stretch_of(place.x, chunk_side, spec.nx);
-    for (int iy = rows.first; iy < rows.end; ++iy) {
-        for (int ix = columns.first; ix < columns.end; ++ix) {
-            const grid::GeoPoint point = projection.to_geo({1.0 * ix, 1.0 * iy});
-            const auto at = static_cast<std::size_t>(iy - rows.first) * chunk_side +
-                            static_cast<std::size_t>(ix - columns.first);
-            degrees[at] = which == Position::latitude
-                              ? point.latitude_deg
-                              : projection.continuous_longitude_deg(point.longitude_deg);
-        }
-    }
-    return text_of_numbers(degrees);
 }
 
 }  // namespace stormcellar::web

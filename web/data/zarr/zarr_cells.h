@@ -13,24 +13,18 @@
 #include <cstdint>
 #include <string>
 
+#include "export/zarr_chunks.h"
 #include "stormcellar/grid/brick_view.h"
 #include "web/data/pictures/flat_map.h"
 
 namespace stormcellar::web {
 
-inline constexpr int chunk_side = 128;
+using zarr::chunk_levels;
+using zarr::chunk_side;
+using zarr::ChunkPlace;
+using zarr::chunks_along;
+using zarr::status_unavailable;
 static_assert(chunk_side % grid::brick_edge == 0);
-// The fill value of states means that the grid is gone or cannot be read. No cell has this state.
-// So a reader that treats an error as a missing chunk does not show "not seen".
-inline constexpr std::int8_t status_unavailable = 4;
-
-struct ChunkPlace {
-    int z = 0, y = 0, x = 0;  // number of the chunk along each axis
-};
-[[nodiscard]] constexpr int chunks_along(int cells) {
-    return (cells + chunk_side - 1) / chunk_side;
-}
-[[nodiscard]] int chunk_levels(const grid::GridSpec& spec);
 
 // Returns the values as float32; NaN if the cell has no value.
 [[nodiscard]] std::string value_chunk(const grid::BrickView& view, const ChunkPlace& place);
@@ -42,12 +36,5 @@ struct ChunkPlace {
 inline constexpr std::int8_t map_status_unavailable = 6;
 [[nodiscard]] std::string map_value_chunk(const FlatMap& map, const ChunkPlace& place);
 [[nodiscard]] std::string map_status_chunk(const FlatMap& map, const ChunkPlace& place);
-
-// Selects what position_chunk() returns: the latitude or the longitude of the middle of each column
-// of cells. Positions are in degrees, as in grid files (export/grid_coordinates.h). A chunk has
-// `chunk_side` rows and columns of float64; NaN beyond the grid.
-enum class Position { latitude, longitude };
-[[nodiscard]] std::string position_chunk(const grid::GridSpec& spec, Position which,
-                                         const ChunkPlace& place);
 
 }  // namespace stormcellar::web

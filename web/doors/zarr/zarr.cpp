@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
-#include <limits>
 #include <utility>
 
 #include <fmt/ranges.h>
 
 #include "base/checksum.h"
 #include "export/cf_attributes.h"
+#include "export/gzip_bytes.h"
+#include "export/zarr_chunks.h"
 #include "render/still/map_attributes.h"
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/level2/moment.h"
@@ -32,8 +32,7 @@ std::optional<std::size_t> whole_number(std::string_view text) {
 }
 
 Answer zarr_document(const Request& request, const ZarrJson& document) {
-    return text_answer_to(request, "application/json",
-                          document.dump(1, ' ', false, ZarrJson::error_handler_t::replace) + "\n");
+    return text_answer_to(request, "application/json", zarr::text_of(document));
 }
 
 Answer zarr_chunk(const Request& request, const Kept& kept,
@@ -63,16 +62,6 @@ std::string chunk_tag(const OpenGrid& grid, std::string_view array,
                        fmt::join(place.begin() + 1, place.end(), "."));
 }
 
-// Returns the numbers of an axis from `first` on. Beyond the end of the axis they are NaN.
-std::string axis_chunk(const std::vector<double>& numbers, std::size_t first, std::size_t length) {
-    std::vector<double> chunk(length, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < length && first + i < numbers.size(); ++i)
-        chunk[i] = numbers[first + i];
-    std::string bytes(length * sizeof(double), '\0');
-    std::memcpy(bytes.data(), chunk.data(), bytes.size());
-    return bytes;
-}
-
 std::vector<double> seconds_of(const std::vector<UtcTime>& times) {
     std::vector<double> seconds;
     seconds.reserve(times.size());
@@ -82,7 +71,7 @@ std::vector<double> seconds_of(const std::vector<UtcTime>& times) {
 }
 
 Result<Kept> packed_chunk(std::string_view bytes, std::string etag) {
-    auto packed = gzipped(bytes, gzip_level);
+    auto packed = gzip_bytes(bytes, zarr::gzip_level);
     if (!packed) return pass_on(packed);
     return Kept{text_of(std::move(*packed)), std::move(etag), {}};
 }
@@ -285,15 +274,16 @@ Answer ZarrDoor::chunk(const Request& request, const Named& named, const Opened&
     const auto made = [&]() -> std::string {
         if (place.empty()) return std::string(sizeof(std::int32_t), '\0');
         if (place.size() == 2) {
-            const auto which = array.name == "lat" ? Position::latitude : Position::longitude;
-            return position_chunk(spec, which,
-                                  {0, static_cast<int>(place[0]), static_cast<int>(place[1])});
+            const auto which =
+                array.name == "lat" ? zarr::Position::latitude : zarr::Position::longitude;
+            return zarr::position_chunk(
+                spec, which, {0, static_cast<int>(place[0]), static_cast<int>(place[1])});
         }
         const std::size_t first = place[0] * array.chunk[0];
         if (array.name == "time")
-            return axis_chunk(seconds_of(*opened.times), first, array.chunk[0]);
-        if (array.name == "z") return axis_chunk(spec.levels_m, first, array.chunk[0]);
-        return axis_chunk(
+            return zarr::axis_chunk(seconds_of(*opened.times), first, array.chunk[0]);
+        if (array.name == "z") return zarr::axis_chunk(spec.levels_m, first, array.chunk[0]);
+        return zarr::axis_chunk(
             array.name == names.y ? netcdf::row_places(spec) : netcdf::column_places(spec), first,
             array.chunk[0]);
     };

@@ -27,8 +27,6 @@
 
 namespace stormcellar::web {
 
-enum class ZarrVersion { two = 2, three = 3 };
-
 // The sources that the doors of both versions share.
 struct ZarrSources {
     std::shared_ptr<Grids> grids;
