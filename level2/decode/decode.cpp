@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "level2/decode/record_plan.h"
 #include "level2/decode/record_queue.h"
 #include "level2/decode/volume_builder.h"
+#include "level2/foreign/foreign.h"
 #include "stormcellar/base/file_system.h"
 #include "stormcellar/base/station_table.h"
 
@@ -60,6 +62,8 @@ class Decoder {
     Result<bool> read_parts(const RecordQueue::Source& source,
                             const std::function<bool(const Fragment&)>& check);
     Status read_messages(std::span<const std::byte> bytes);
+    // Reads a file of another format. Its volume is the whole result.
+    Status read_foreign(std::span<const std::byte> bytes);
     Status take_output(LayerOutput& output, std::span<const std::byte> piece);
     Status end_output(LayerOutput& output, int depth);
     // Appends the messages read so far to the volume.
@@ -70,6 +74,7 @@ class Decoder {
 
     const DecodeOptions& options_;
     VolumeBuilder builder_{options_.output_limit_bytes, options_.most_array_bytes()};
+    std::optional<Decoded> foreign_;
 };
 
 Status Decoder::flush(LayerOutput& output) {
@@ -93,6 +98,7 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
                     most_layers - 1);
     }
     std::string& container = builder_.report_data().container;
+    if (is_foreign(bytes)) return read_foreign(bytes);
     switch (content_anywhere(bytes)) {
         case Content::gzip:
             container += "gzip+";
@@ -121,6 +127,15 @@ Status Decoder::read_layer(std::span<const std::byte> bytes, int depth) {
     }
     return fail(ErrorCode::not_level2, "{}not a Level II file",
                 depth == 0 ? "" : "what it holds, decompressed, is ");
+}
+
+Status Decoder::read_foreign(std::span<const std::byte> bytes) {
+    auto decoded = decode_foreign(bytes, options_.selection, options_.most_array_bytes(),
+                                  options_.fallback_station);
+    if (!decoded) return pass_on(decoded);
+    decoded->report.container.insert(0, builder_.report_data().container);
+    foreign_ = std::move(*decoded);
+    return {};
 }
 
 Status Decoder::read_messages(std::span<const std::byte> bytes) {
@@ -319,6 +334,7 @@ Status Decoder::read_ldm(std::span<const std::byte> bytes) {
 Result<Decoded> Decoder::run(std::span<const std::byte> bytes) {
     if (bytes.empty()) return fail(ErrorCode::empty, "the file is empty");
     if (Status read = read_layer(bytes, 0); !read) return pass_on(read);
+    if (foreign_) return std::move(*foreign_);
     return builder_.finish(options_.fallback_station);
 }
 
