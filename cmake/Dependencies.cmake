@@ -43,6 +43,7 @@ stormcellar_package(PkgConfig::cairo pkg_check_modules cairo REQUIRED IMPORTED_T
 stormcellar_package(PkgConfig::systemd pkg_check_modules systemd REQUIRED IMPORTED_TARGET libsystemd)
 stormcellar_package(PkgConfig::microhttpd pkg_check_modules microhttpd REQUIRED IMPORTED_TARGET libmicrohttpd)
 stormcellar_package(PkgConfig::netcdf pkg_check_modules netcdf REQUIRED IMPORTED_TARGET netcdf)
+stormcellar_package(PkgConfig::hdf5 pkg_check_modules hdf5 REQUIRED IMPORTED_TARGET hdf5)
 stormcellar_package(PkgConfig::hwy pkg_check_modules hwy REQUIRED IMPORTED_TARGET libhwy)
 if(STORMCELLAR_VIDEO)
   stormcellar_package(PkgConfig::ffmpeg pkg_check_modules ffmpeg REQUIRED IMPORTED_TARGET

@@ -1,118 +1,44 @@
 #include "stormcellar/export/cfradial.h"
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-
 #include <fmt/ranges.h>
 #include <netcdf.h>
 
-#include "base/printable.h"
 #include "export/cfradial_parts.h"
-#include "stormcellar/base/station_table.h"
-#include "stormcellar/base/version.h"
+#include "export/volume_facts.h"
 
 namespace stormcellar::netcdf {
+namespace {
 
-int CfradialParts::variable(const char* name, int type, const std::vector<int>& dimensions,
-                            const char* long_name, const char* units) const {
-    const int made = file.variable(name, type, dimensions);
-    file.text(made, "long_name", long_name);
-    file.text(made, "units", units);
-    return made;
-}
+using level2::Sweep;
+using level2::Volume;
 
-int CfradialParts::words(const char* name, const std::vector<int>& dimensions,
-                         const char* long_name, const std::vector<std::string>& values) const {
-    const int made = file.variable(name, NC_CHAR, dimensions);
-    file.text(made, "long_name", long_name);
+constexpr CfradialVersion version_1_4{
+    "CF-1.7 CF/Radial instrument_parameters", "1.4", "CfRadial 1.4, NCAR/EOL",
+    "Codes are those of the radar, none is resampled: moments that differ in range, scale "
+    "or offset are variables of their own, as the attribute moment says, or gates longer "
+    "than those of range are repeated, as the variables gate_repeats say. Whatever is no "
+    "value is _FillValue; the status variable of each moment says why."};
+
+// Writes one word for each element of the dimension, or a single word if there is no dimension.
+void write_words(const CfradialParts& parts, int letter, const char* name,
+                 std::vector<int> dimensions, const char* long_name,
+                 const std::vector<std::string>& values) {
+    dimensions.push_back(letter);
+    const int made = described_variable(parts.file, name, NC_CHAR, dimensions, long_name, nullptr);
     std::string letters;
     for (const std::string& value : values) {
         std::string word = value;
         word.resize(string_length);
         letters += word;
     }
-    file.write(made, std::span<const char>(letters));
-    return made;
+    parts.file.write(made, std::span<const char>(letters));
 }
 
-namespace {
-
-using level2::Volume;
-
-// The times of the first and the last radial. If no radial has a plausible time, both are the start
-// of the volume.
-struct Coverage {
-    UtcTime start, end;  // whole seconds, between which the volume is
-    bool times_increase = true;
-};
-
-Coverage coverage_of(const Volume& volume) {
-    std::optional<UtcTime> first;
-    std::optional<UtcTime> last;
-    std::optional<UtcTime> before;
-    Coverage coverage;
-    for (const level2::Sweep& sweep : volume.sweeps) {
-        for (const level2::Radial& radial : sweep.radials) {
-            if (before && radial.time < *before) coverage.times_increase = false;
-            before = radial.time;
-            if (!level2::is_plausible(radial.time)) continue;
-            first = std::min(first.value_or(radial.time), radial.time);
-            last = std::max(last.value_or(radial.time), radial.time);
-        }
-    }
-    const UtcTime start = first.value_or(volume.start_time().value_or(UtcTime{}));
-    coverage.start = std::chrono::floor<std::chrono::seconds>(start);
-    coverage.end = std::chrono::ceil<std::chrono::seconds>(last.value_or(start));
-    return coverage;
-}
-
-// Returns the operator of the radar. Level II does not name it, but the radar's site tells it.
-std::string institution_of(const std::optional<Station>& station) {
-    if (!station) return "unknown";
-    return station->kind == RadarKind::tdwr ? "TDWR network of the FAA"
-                                            : "NEXRAD network of NOAA, the U.S. Air Force and FAA";
-}
-
-void write_titles(const CfradialParts& parts, const VolumeWriteOptions& options) {
+void write_attributes(const CfradialParts& parts, const Volume& volume,
+                      const VolumeWriteOptions& options, bool times_increase) {
     constexpr int global = NetcdfBuilder::file;
     NetcdfBuilder& file = parts.file;
-    const Volume& volume = parts.volume;
-    const auto station = find_station(volume.station);
-    const std::string name = volume.station.empty() ? "unknown" : printable(volume.station);
-    const std::string source = printable(options.source_file);
-    const std::string software = fmt::format("stormcellar {}", software_version);
-    file.text(global, "Conventions", "CF-1.7 CF/Radial instrument_parameters");
-    file.text(global, "version", "1.4");
-    file.text(global, "title",
-              fmt::format("Radar volume of {}, {}", name, format_utc(parts.reference)));
-    file.text(global, "institution", institution_of(station));
-    file.text(global, "references",
-              "NEXRAD ICD 2620002 (RDA/RPG) and 2620010 (Archive II/User); CfRadial 1.4, NCAR/EOL");
-    file.text(global, "source", "weather radar Level II volume");
-    file.text(global, "history",
-              source.empty() ? software + ": decoded"
-                             : fmt::format("{}: decoded from {}", software, source));
-    file.text(
-        global, "comment",
-        "Codes are those of the radar, none is resampled: moments that differ in range, scale "
-        "or offset are variables of their own, as the attribute moment says, or gates longer "
-        "than those of range are repeated, as the variables gate_repeats say. Whatever is no "
-        "value is _FillValue; the status variable of each moment says why.");
-    file.text(global, "instrument_name", name);
-    file.text(global, "site_name",
-              station ? fmt::format("{}, {}", station->name, station->state) : "unknown");
-    if (!source.empty()) file.text(global, "source_file", source);
-    file.text(global, "software_version", software);
-    file.text(global, "volume", options.complete ? "complete" : "partial");
-}
-
-void write_attributes(const CfradialParts& parts, const VolumeWriteOptions& options,
-                      bool times_increase) {
-    constexpr int global = NetcdfBuilder::file;
-    NetcdfBuilder& file = parts.file;
-    const Volume& volume = parts.volume;
-    write_titles(parts, options);
+    write_titles(file, volume, options, parts.reference, version_1_4);
     if (volume.vcp) file.number(global, "scan_id", *volume.vcp);
     file.text(global, "platform_is_mobile", "false");
     file.text(global, "n_gates_vary", "false");
@@ -123,33 +49,15 @@ void write_attributes(const CfradialParts& parts, const VolumeWriteOptions& opti
         names.push_back(field.name + "_status");
     }
     file.text(global, "field_names", fmt::format("{}", fmt::join(names, ",")));
-    if (!options.notes.empty()) {
-        std::vector<std::string> notes;
-        for (const std::string& note : options.notes)
-            notes.push_back(printable(note));
-        file.text(global, "notes", fmt::format("{}", fmt::join(notes, "\n")));
-    }
-    if (!volume.block) return;
-    const level2::VolumeBlock& block = *volume.block;
-    file.number(global, "transmitter_power_h_kw", static_cast<double>(block.horizontal_power_kw));
-    file.number(global, "transmitter_power_v_kw", static_cast<double>(block.vertical_power_kw));
-    file.number(global, "reflectivity_calibration_db", static_cast<double>(block.calibration_db));
-    file.number(global, "system_zdr_db", static_cast<double>(block.differential_reflectivity_db));
-    file.number(global, "system_phi_deg",
-                static_cast<double>(block.initial_differential_phase_deg));
+    if (!options.notes.empty()) file.text(global, "notes", text_of_notes(options.notes));
+    write_power_attributes(file, volume);
 }
 
-void write_scalars(const CfradialParts& parts, const Coverage& coverage) {
-    NetcdfBuilder& file = parts.file;
-    const Volume& volume = parts.volume;
-    const auto number = volume.header ? volume.header->volume_number() : std::nullopt;
-    const int volume_number =
-        parts.variable("volume_number", NC_INT, {}, "data_volume_index_number", "1");
-    constexpr int unknown = -1;
-    if (!number) file.fill_value(volume_number, unknown);
-    file.write(volume_number, std::array<int, 1>{number.value_or(unknown)});
+void write_scalars(const CfradialParts& parts, const Volume& volume, const Coverage& coverage,
+                   int letter) {
+    write_volume_number(parts.file, volume);
     const auto word = [&](const char* name, const char* long_name, const std::string& value) {
-        return parts.words(name, {parts.letter}, long_name, {value});
+        write_words(parts, letter, name, {}, long_name, {value});
     };
     word("platform_type", "platform_type", "fixed");
     word("instrument_type", "type_of_instrument", "radar");
@@ -158,49 +66,52 @@ void write_scalars(const CfradialParts& parts, const Coverage& coverage) {
     word("time_coverage_end", "data_volume_end_time_utc", format_utc(coverage.end));
 }
 
-void write_position(const CfradialParts& parts) {
-    NetcdfBuilder& file = parts.file;
-    const auto antenna = level2::antenna_position(parts.volume);
-    const auto write = [&](const char* name, const char* units, std::optional<double> value) {
-        const int variable = parts.variable(name, NC_DOUBLE, {}, name, units);
-        file.text(variable, "standard_name", name);
-        if (!value) file.fill_value(variable, NC_FILL_DOUBLE);
-        file.write(variable, std::array<double, 1>{value.value_or(NC_FILL_DOUBLE)});
-        return variable;
-    };
-    using Degrees = std::optional<double>;
-    write("latitude", "degrees_north", antenna ? Degrees{antenna->latitude_deg} : std::nullopt);
-    write("longitude", "degrees_east", antenna ? Degrees{antenna->longitude_deg} : std::nullopt);
-    const int altitude =
-        write("altitude", "meters", antenna ? Degrees{antenna->altitude_m} : std::nullopt);
-    file.text(altitude, "positive", "up");
-    file.text(altitude, "comment", "of the antenna, above mean sea level");
-    if (!antenna) return;
-    file.text(NetcdfBuilder::file, "position_source",
-              antenna->from_table ? "station table" : "the volume");
-    if (antenna->disagreement) {
-        file.text(NetcdfBuilder::file, "position_disagreement", printable(*antenna->disagreement));
-    }
+template <class Value, class Function>
+std::vector<Value> of_each_sweep(const CfradialParts& parts, Function function) {
+    std::vector<Value> values;
+    values.reserve(parts.sweeps.size());
+    for (const Sweep& sweep : parts.sweeps)
+        values.push_back(function(sweep));
+    return values;
 }
 
-void write_axes(const CfradialParts& parts) {
-    NetcdfBuilder& file = parts.file;
-    for (std::size_t i = 0; i < parts.ranges.size(); ++i) {
-        const RangeAxis& axis = parts.layout.axes[i];
-        const int range = parts.variable(axis.name.c_str(), NC_FLOAT, {parts.ranges[i]},
-                                         "range_to_measurement_volume", "meters");
-        file.text(range, "standard_name", "projection_range_coordinate");
-        file.text(range, "axis", "radial_range_coordinate");
-        file.text(range, "spacing_is_constant", "true");
-        file.number(range, "meters_to_center_of_first_gate",
-                    static_cast<double>(axis.first_gate_m));
-        file.number(range, "meters_between_gates", static_cast<double>(axis.gate_spacing_m));
-        std::vector<double> centres_m;
-        for (std::size_t gate = 0; gate < axis.gates; ++gate)
-            centres_m.push_back(axis.first_gate_m + static_cast<double>(axis.gate_spacing_m) *
-                                                        static_cast<double>(gate));
-        file.write(range, std::span<const double>(centres_m));
+void write_sweep_places(const CfradialParts& parts, int letter) {
+    const std::size_t count = parts.sweeps.size();
+    std::vector<int> numbers;
+    std::vector<int> starts;
+    std::vector<int> ends;
+    for (std::size_t sweep = 0; sweep < count; ++sweep) {
+        const std::size_t start = parts.layout.first_radials[sweep];
+        numbers.push_back(static_cast<int>(sweep));
+        starts.push_back(static_cast<int>(start));
+        ends.push_back(static_cast<int>(start + parts.sweeps[sweep].radials.size() - 1));
     }
+    write_ints(parts, "sweep_number", parts.sweep, "sweep_index_number_0_based", numbers);
+    write_ints(parts, "sweep_start_ray_index", parts.sweep, "index_of_first_ray_in_sweep", starts);
+    write_ints(parts, "sweep_end_ray_index", parts.sweep, "index_of_last_ray_in_sweep", ends);
+    write_words(parts, letter, "sweep_mode", parts.sweep, "scan_mode_for_sweep",
+                std::vector<std::string>(count, "azimuth_surveillance"));
+}
+
+void write_sweep_variables(const CfradialParts& parts, int letter) {
+    write_sweep_places(parts, letter);
+    const int fixed =
+        parts.variable("fixed_angle", NC_FLOAT, parts.sweep, "target_fixed_angle", "degrees");
+    parts.file.text(fixed, "comment",
+                    "as the VCP has it; where it is not known, the median of the elevations");
+    const auto angles_deg = of_each_sweep<float>(parts, fixed_angle_deg);
+    parts.file.write(fixed, std::span<const float>(angles_deg));
+    write_ints(parts, "elevation_number", parts.sweep, "cut of the VCP, from 1",
+               of_each_sweep<int>(parts, [](const Sweep& s) { return s.elevation_number; }));
+    write_ints(parts, "message_type", parts.sweep, "Level II message of the radials, 1 or 31",
+               of_each_sweep<int>(parts, [](const Sweep& s) { return s.message_type; }));
+    write_words(parts, letter, "rays_are_indexed", parts.sweep, "flag_for_indexed_rays",
+                of_each_sweep<std::string>(parts, [](const Sweep& s) {
+                    return s.radials.front().azimuth_indexing != 0 ? "true" : "false";
+                }));
+    write_known(parts, "ray_angle_res", parts.sweep, "angular_resolution_between_rays", "degrees",
+                of_each_sweep<Known>(
+                    parts, [](const Sweep& s) { return unless_zero(s.azimuth_spacing_deg); }));
 }
 
 Result<std::vector<std::byte>> build(const Volume& volume, const CfradialLayout& layout,
@@ -209,21 +120,21 @@ Result<std::vector<std::byte>> build(const Volume& volume, const CfradialLayout&
     const Coverage coverage = coverage_of(volume);
     NetcdfBuilder file;
     CfradialParts parts{file,
-                        volume,
+                        volume.sweeps,
                         layout,
                         coverage.start,
                         options.deflate_level,
                         file.dimension("time", layout.radials),
-                        file.dimension("sweep", volume.sweeps.size()),
-                        file.dimension("string_length", string_length),
+                        {file.dimension("sweep", volume.sweeps.size())},
                         {}};
+    const int letter = file.dimension("string_length", string_length);
     for (const RangeAxis& axis : layout.axes)
         parts.ranges.push_back(file.dimension(axis.name.c_str(), axis.gates));
-    write_attributes(parts, options, coverage.times_increase);
-    write_scalars(parts, coverage);
-    write_position(parts);
+    write_attributes(parts, volume, options, coverage.times_increase);
+    write_scalars(parts, volume, coverage, letter);
+    write_position(file, volume);
     write_axes(parts);
-    write_sweep_variables(parts);
+    write_sweep_variables(parts, letter);
     write_radial_variables(parts);
     write_fields(parts);
     return file.finish();
@@ -231,13 +142,16 @@ Result<std::vector<std::byte>> build(const Volume& volume, const CfradialLayout&
 
 }  // namespace
 
+Status check_deflate_level(const VolumeWriteOptions& options) {
+    if (options.deflate_level >= 0 && options.deflate_level <= 9) return {};
+    return fail(ErrorCode::bad_argument, "the deflate level must be 0 to 9, not {}",
+                options.deflate_level);
+}
+
 Status write_volume(FileSystem& file_system, const std::filesystem::path& path,
                     const Volume& volume, const VolumeWriteOptions& options) {
-    if (options.deflate_level < 0 || options.deflate_level > 9) {
-        return fail(ErrorCode::bad_argument, "the deflate level must be 0 to 9, not {}",
-                    options.deflate_level);
-    }
-    const auto layout = lay_out(volume, options.ranges);
+    if (Status good = check_deflate_level(options); !good) return good;
+    const auto layout = lay_out(volume.sweeps, options.ranges);
     if (!layout) return fail(layout.error().code, "{}: {}", path.string(), layout.error().message);
     const auto bytes = build(volume, *layout, options);
     if (!bytes) return fail(bytes.error().code, "{}: {}", path.string(), bytes.error().message);

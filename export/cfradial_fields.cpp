@@ -85,7 +85,7 @@ int define_codes(const CfradialParts& parts, const CfradialField& field) {
     file.fill_value(codes, fill_code);
     const level2::MomentFacts& facts = level2::facts_of(kind.moment);
     file.text(codes, "long_name", facts.netcdf.long_name);
-    if (!facts.netcdf.cfradial.empty()) file.text(codes, "standard_name", facts.netcdf.cfradial);
+    if (!field.standard_name.empty()) file.text(codes, "standard_name", field.standard_name);
     file.text(codes, "units", facts.units);
     // If the scale is 0, the code itself is the value.
     const double scale = kind.scale == 0 ? 1.0 : static_cast<double>(kind.scale);
@@ -175,7 +175,7 @@ void write_placement(const CfradialParts& parts, const CfradialField& field) {
     const auto write = [&](const char* ending, const char* long_name, const char* units,
                            const std::vector<int>& values) {
         const int made =
-            parts.variable((field.name + ending).c_str(), NC_INT, {parts.sweep}, long_name, units);
+            parts.variable((field.name + ending).c_str(), NC_INT, parts.sweep, long_name, units);
         parts.file.write(made, std::span<const int>(values));
     };
     write("_gate_repeats", "elements of range that one measured gate fills; 0: no gates", "1",
@@ -193,7 +193,7 @@ void write_field(const CfradialParts& parts, const CfradialField& field, SweepGa
     const RangeAxis& axis = parts.layout.axes[field.axis];
     for (std::size_t sweep = 0; sweep < field.sweeps.size(); ++sweep) {
         const NetcdfBuilder::Rows rows{parts.layout.first_radials[sweep],
-                                       parts.volume.sweeps[sweep].radials.size(), axis.gates};
+                                       parts.sweeps[sweep].radials.size(), axis.gates};
         unpack(field.sweeps[sweep], axis, rows.count, gates);
         parts.file.write_rows(codes, rows, std::span<const int>(gates.codes));
         parts.file.write_rows(status, rows, std::span<const signed char>(gates.states));

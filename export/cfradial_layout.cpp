@@ -53,10 +53,10 @@ std::int64_t first_element(std::int64_t axis_first_m, std::int64_t spacing_m,
 constexpr std::int64_t most_elements = 8192;
 constexpr std::int32_t most_repeats = 8;
 
-// Returns all moments of the volume that have gates.
-std::vector<const SweepMoment*> moments_of(const level2::Volume& volume) {
+// Returns all moments of the sweeps that have gates.
+std::vector<const SweepMoment*> moments_of(std::span<const level2::Sweep> sweeps) {
     std::vector<const SweepMoment*> moments;
-    for (const level2::Sweep& sweep : volume.sweeps) {
+    for (const level2::Sweep& sweep : sweeps) {
         for (const SweepMoment& moment : sweep.moments)
             if (most_gates(moment) > 0) moments.push_back(&moment);
     }
@@ -70,29 +70,6 @@ bool fits(const SweepMoment& moment, const SweepMoment& finest) {
     if (moment.gate_spacing_m / spacing_m > most_repeats) return false;
     return moment.gate_spacing_m != spacing_m ||
            (moment.first_gate_m - finest.first_gate_m) % spacing_m == 0;
-}
-
-// Returns an axis onto which all gates of the volume fit; none if there is no such axis.
-std::optional<RangeAxis> common_axis(const level2::Volume& volume) {
-    const std::vector<const SweepMoment*> moments = moments_of(volume);
-    const auto finest = std::min_element(
-        moments.begin(), moments.end(),
-        [](const auto* a, const auto* b) { return a->gate_spacing_m < b->gate_spacing_m; });
-    if (finest == moments.end()) return std::nullopt;
-    std::int64_t begin = 0;
-    std::int64_t end = 0;
-    for (const SweepMoment* moment : moments) {
-        if (!fits(*moment, **finest)) return std::nullopt;
-        const std::int64_t first =
-            first_element((*finest)->first_gate_m, (*finest)->gate_spacing_m, *moment);
-        const std::int64_t repeats = moment->gate_spacing_m / (*finest)->gate_spacing_m;
-        begin = std::min(begin, first);
-        end = std::max(end, first + repeats * static_cast<std::int64_t>(most_gates(*moment)));
-    }
-    if (end - begin > most_elements) return std::nullopt;
-    const std::int64_t first_m = (*finest)->first_gate_m + begin * (*finest)->gate_spacing_m;
-    return RangeAxis{"range", static_cast<std::int32_t>(first_m), (*finest)->gate_spacing_m,
-                     static_cast<std::size_t>(end - begin)};
 }
 
 Status check_arrays(const SweepMoment& moment, std::size_t sweep, std::size_t radials) {
@@ -127,7 +104,7 @@ void add(CfradialLayout& layout, const SweepMoment& moment, std::size_t sweep,
     field->radials += radials;
 }
 
-void order_and_name(std::vector<CfradialField>& fields) {
+void order_and_name(std::vector<CfradialField>& fields, FieldNames (*names)(level2::Moment)) {
     std::stable_sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) {
         if (a.kind->moment != b.kind->moment) return a.kind->moment < b.kind->moment;
         return a.radials > b.radials;
@@ -137,8 +114,9 @@ void order_and_name(std::vector<CfradialField>& fields) {
         const level2::Moment moment = fields[i].kind->moment;
         const bool further = i > 0 && fields[i - 1].kind->moment == moment;
         number = further ? number + 1 : 1;
-        const level2::MomentFacts& facts = level2::facts_of(moment);
-        fields[i].name = facts.netcdf.variable.empty() ? facts.name : facts.netcdf.variable;
+        const FieldNames named = names(moment);
+        fields[i].name = named.name;
+        fields[i].standard_name = named.standard_name;
         if (further) fields[i].name += fmt::format("_{}", number);
     }
 }
@@ -165,6 +143,12 @@ void find_axes(CfradialLayout& layout) {
 
 }  // namespace
 
+FieldNames names_in_cfradial_1(level2::Moment moment) {
+    const level2::MomentFacts& facts = level2::facts_of(moment);
+    return {facts.netcdf.variable.empty() ? facts.name : facts.netcdf.variable,
+            facts.netcdf.cfradial};
+}
+
 GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment) {
     // The gates are damaged, and the axis was made for them.
     if (axis.gate_spacing_m <= 0) return {};
@@ -173,32 +157,58 @@ GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& mome
             static_cast<std::size_t>(moment.gate_spacing_m / axis.gate_spacing_m)};
 }
 
-Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges) {
-    CfradialLayout layout;
-    for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep) {
-        const level2::Sweep& from = volume.sweeps[sweep];
+std::optional<RangeAxis> common_axis(std::span<const level2::Sweep> sweeps) {
+    const std::vector<const SweepMoment*> moments = moments_of(sweeps);
+    const auto finest = std::min_element(
+        moments.begin(), moments.end(),
+        [](const auto* a, const auto* b) { return a->gate_spacing_m < b->gate_spacing_m; });
+    if (finest == moments.end()) return std::nullopt;
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    for (const SweepMoment* moment : moments) {
+        if (!fits(*moment, **finest)) return std::nullopt;
+        const std::int64_t first =
+            first_element((*finest)->first_gate_m, (*finest)->gate_spacing_m, *moment);
+        const std::int64_t repeats = moment->gate_spacing_m / (*finest)->gate_spacing_m;
+        begin = std::min(begin, first);
+        end = std::max(end, first + repeats * static_cast<std::int64_t>(most_gates(*moment)));
+    }
+    if (end - begin > most_elements) return std::nullopt;
+    const std::int64_t first_m = (*finest)->first_gate_m + begin * (*finest)->gate_spacing_m;
+    return RangeAxis{"range", static_cast<std::int32_t>(first_m), (*finest)->gate_spacing_m,
+                     static_cast<std::size_t>(end - begin)};
+}
+
+Status check_sweeps(std::span<const level2::Sweep> sweeps) {
+    for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep) {
+        const level2::Sweep& from = sweeps[sweep];
         if (from.radials.empty()) {
             return fail(ErrorCode::bad_argument, "sweep {} has no radials", sweep);
         }
-        layout.first_radials.push_back(layout.radials);
-        layout.radials += from.radials.size();
         for (const SweepMoment& moment : from.moments) {
-            if (auto good = check_arrays(moment, sweep, from.radials.size()); !good) {
-                return pass_on(good);
-            }
+            if (auto good = check_arrays(moment, sweep, from.radials.size()); !good) return good;
         }
     }
-    const auto axis = ranges == RangeAxes::one_if_possible ? common_axis(volume) : std::nullopt;
-    for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep) {
-        for (const SweepMoment& moment : volume.sweeps[sweep].moments)
-            add(layout, moment, sweep, volume.sweeps.size(), axis.has_value());
+    return {};
+}
+
+Result<CfradialLayout> lay_out(std::span<const level2::Sweep> sweeps, RangeAxes ranges,
+                               FieldNames (*names)(level2::Moment)) {
+    if (auto good = check_sweeps(sweeps); !good) return pass_on(good);
+    CfradialLayout layout;
+    const auto axis = ranges == RangeAxes::one_if_possible ? common_axis(sweeps) : std::nullopt;
+    for (std::size_t sweep = 0; sweep < sweeps.size(); ++sweep) {
+        layout.first_radials.push_back(layout.radials);
+        layout.radials += sweeps[sweep].radials.size();
+        for (const SweepMoment& moment : sweeps[sweep].moments)
+            add(layout, moment, sweep, sweeps.size(), axis.has_value());
         if (layout.fields.size() > most_cfradial_fields) {
             return fail(ErrorCode::unsupported,
                         "more than {} kinds of gates that differ in moment, range, scale or offset",
                         most_cfradial_fields);
         }
     }
-    order_and_name(layout.fields);
+    order_and_name(layout.fields, names);
     if (axis) {
         layout.axes = {*axis};  // all fields are on this axis
     } else {

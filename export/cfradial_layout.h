@@ -6,8 +6,9 @@
 // spacing, and each pair of first gate and spacing makes an axis. Either way, nearly every moment
 // of a modern volume is one field on one axis.
 //   names   Gates of a moment that make one field are of one kind. The kind that most radials have
-//           is named as the moment, such as REF; the other kinds are REF_2, REF_3, .... Axes are
-//           range, range_2, ... in the order in which the fields need them.
+//           is named as the moment, such as REF; the other kinds are REF_2, REF_3, .... The caller
+//           chooses the names of the moments. Axes are range, range_2, ... in the order in which
+//           the fields need them.
 //   order   Fields are sorted by moment (REF VEL SW ZDR PHI RHO CFP), then by number of radials,
 //           then by the place at which they first appear in the file.
 //
@@ -16,7 +17,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -39,10 +43,19 @@ struct GatePlacement {
     std::size_t repeats = 1;
 };
 
+// Names of a moment in one version of CfRadial. The standard name may be empty.
+struct FieldNames {
+    std::string_view name;
+    std::string_view standard_name;
+};
+
+[[nodiscard]] FieldNames names_in_cfradial_1(level2::Moment moment);
+
 struct CfradialField {
     std::string name;
+    std::string_view standard_name;
     std::size_t axis = 0;  // index in CfradialLayout::axes
-    // One element for each sweep of the volume. It is null if the sweep has no gates of this kind.
+    // One element for each sweep. It is null if the sweep has no gates of this kind.
     // At least one element is not null.
     std::vector<const level2::SweepMoment*> sweeps;
     const level2::SweepMoment* kind = nullptr;  // the first of `sweeps` that is not null
@@ -52,7 +65,7 @@ struct CfradialField {
 struct CfradialLayout {
     std::vector<RangeAxis> axes;  // at least one axis, but it may have no gates
     std::vector<CfradialField> fields;
-    // For each sweep, the number of its first radial in the volume.
+    // For each sweep, the number of its first radial among the radials of all sweeps.
     std::vector<std::size_t> first_radials;
     std::size_t radials = 0;
 };
@@ -63,9 +76,16 @@ inline constexpr std::size_t most_cfradial_fields = 64;
 // Returns the place of a moment's gates on an axis of the layout. The gates must fit onto the axis.
 [[nodiscard]] GatePlacement place_gates(const RangeAxis& axis, const level2::SweepMoment& moment);
 
-// Makes the layout. It refers to the volume, which must outlive it. Errors: bad_argument for a
-// sweep without radials, or whose arrays do not fit each other; unsupported for more than
-// most_cfradial_fields fields.
-[[nodiscard]] Result<CfradialLayout> lay_out(const level2::Volume& volume, RangeAxes ranges);
+// Returns the one axis onto which all gates of these sweeps fit; none if there is no such axis.
+[[nodiscard]] std::optional<RangeAxis> common_axis(std::span<const level2::Sweep> sweeps);
+
+// Fails with bad_argument if a sweep has no radials, or arrays that do not fit each other.
+[[nodiscard]] Status check_sweeps(std::span<const level2::Sweep> sweeps);
+
+// Makes the layout. It refers to the sweeps, which must outlive it. Errors: those of
+// check_sweeps(); unsupported for more than most_cfradial_fields fields.
+[[nodiscard]] Result<CfradialLayout> lay_out(
+    std::span<const level2::Sweep> sweeps, RangeAxes ranges,
+    FieldNames (*names)(level2::Moment) = names_in_cfradial_1);
 
 }  // namespace stormcellar::netcdf

@@ -1,4 +1,4 @@
-// Writes the variables of a CfRadial file that have one element for each sweep or each radial.
+// Writes the variables of a CfRadial file that have one element for each radial.
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -13,67 +13,15 @@ namespace {
 using level2::Radial;
 using level2::Sweep;
 
-using Known = std::optional<float>;  // none: Level II does not tell it
-
-// Returns the fixed angle of the VCP, or else the median of the measured elevations. A few radials
-// that were taken while the antenna moved do not shift the median.
-float fixed_angle_deg(const Sweep& sweep) {
-    if (sweep.vcp_elevation_deg) return *sweep.vcp_elevation_deg;
-    std::vector<float> elevations_deg;
-    elevations_deg.reserve(sweep.radials.size());
-    for (const Radial& radial : sweep.radials)
-        elevations_deg.push_back(radial.elevation_deg);
-    const auto middle =
-        elevations_deg.begin() + static_cast<std::ptrdiff_t>(elevations_deg.size() / 2);
-    std::nth_element(elevations_deg.begin(), middle, elevations_deg.end());
-    return *middle;
-}
-
-template <class Value, class Function>
-std::vector<Value> of_each_sweep(const CfradialParts& parts, Function function) {
-    std::vector<Value> values;
-    values.reserve(parts.volume.sweeps.size());
-    for (const Sweep& sweep : parts.volume.sweeps)
-        values.push_back(function(sweep));
-    return values;
-}
-
 template <class Value, class Function>
 std::vector<Value> of_each_radial(const CfradialParts& parts, Function function) {
     std::vector<Value> values;
     values.reserve(parts.layout.radials);
-    for (const Sweep& sweep : parts.volume.sweeps) {
+    for (const Sweep& sweep : parts.sweeps) {
         for (const Radial& radial : sweep.radials)
             values.push_back(function(radial));
     }
     return values;
-}
-
-// Writes a variable of floats, with _FillValue for each unknown value. Makes no variable if all
-// values are unknown.
-int write_known(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
-                const char* units, const std::vector<Known>& values) {
-    const auto known = [](const Known& value) { return value.has_value(); };
-    if (std::none_of(values.begin(), values.end(), known)) return NetcdfBuilder::file;
-    const int variable = parts.variable(name, NC_FLOAT, {dimension}, long_name, units);
-    parts.file.fill_value(variable, static_cast<double>(NC_FILL_FLOAT));
-    std::vector<float> filled;
-    filled.reserve(values.size());
-    for (const auto& value : values)
-        filled.push_back(value.value_or(NC_FILL_FLOAT));
-    parts.file.write(variable, std::span<const float>(filled));
-    return variable;
-}
-
-// Returns the value, or none for 0, which Level II writes for an unknown number.
-Known unless_zero(float value) {
-    return value == 0 ? std::nullopt : Known{value};
-}
-
-void write_ints(const CfradialParts& parts, const char* name, int dimension, const char* long_name,
-                const std::vector<int>& values) {
-    const int variable = parts.variable(name, NC_INT, {dimension}, long_name, "1");
-    parts.file.write(variable, std::span<const int>(values));
 }
 
 void write_pointing(const CfradialParts& parts) {
@@ -109,7 +57,7 @@ void write_instrument(const CfradialParts& parts) {
     const auto write = [&](const char* name, const char* long_name, const char* units,
                            auto function) {
         const auto values = of_each_radial<Known>(parts, function);
-        const int variable = write_known(parts, name, parts.time, long_name, units, values);
+        const int variable = write_known(parts, name, {parts.time}, long_name, units, values);
         if (variable != NetcdfBuilder::file) {
             parts.file.text(variable, "meta_group", "instrument_parameters");
         }
@@ -131,59 +79,43 @@ void write_instrument(const CfradialParts& parts) {
 // Writes what Level II says about each radial and CfRadial has no name for.
 void write_level2_facts(const CfradialParts& parts) {
     const auto ints = [&](auto function) { return of_each_radial<int>(parts, function); };
-    write_ints(parts, "azimuth_number", parts.time, "number of the radial in its sweep",
+    write_ints(parts, "azimuth_number", {parts.time}, "number of the radial in its sweep",
                ints([](const Radial& radial) { return radial.azimuth_number; }));
-    write_ints(parts, "radial_status", parts.time,
+    write_ints(parts, "radial_status", {parts.time},
                "0 start, 1 inside, 2 end of a sweep, 3 start, 4 end of the volume, 5 start of the "
                "last sweep; 128 more: bad data",
                ints([](const Radial& radial) { return radial.status; }));
-    write_ints(parts, "cut_sector", parts.time, "sector of the cut",
+    write_ints(parts, "cut_sector", {parts.time}, "sector of the cut",
                ints([](const Radial& radial) { return radial.cut_sector; }));
-    write_ints(parts, "spot_blanking", parts.time,
+    write_ints(parts, "spot_blanking", {parts.time},
                "bits: 1 this radial, 2 this sweep, 4 this volume is blanked in part",
                ints([](const Radial& radial) { return radial.spot_blanking; }));
 }
 
 }  // namespace
 
-void write_sweep_variables(const CfradialParts& parts) {
-    const auto write = [&](const char* name, const char* long_name,
-                           const std::vector<int>& values) {
-        write_ints(parts, name, parts.sweep, long_name, values);
-    };
-    const std::size_t count = parts.volume.sweeps.size();
-    std::vector<int> numbers;
-    std::vector<int> starts;
-    std::vector<int> ends;
-    for (std::size_t sweep = 0; sweep < count; ++sweep) {
-        const std::size_t start = parts.layout.first_radials[sweep];
-        numbers.push_back(static_cast<int>(sweep));
-        starts.push_back(static_cast<int>(start));
-        ends.push_back(static_cast<int>(start + parts.volume.sweeps[sweep].radials.size() - 1));
-    }
-    write("sweep_number", "sweep_index_number_0_based", numbers);
-    write("sweep_start_ray_index", "index_of_first_ray_in_sweep", starts);
-    write("sweep_end_ray_index", "index_of_last_ray_in_sweep", ends);
-    parts.words("sweep_mode", {parts.sweep, parts.letter}, "scan_mode_for_sweep",
-                std::vector<std::string>(count, "azimuth_surveillance"));
+int write_known(const CfradialParts& parts, const char* name, const std::vector<int>& dimensions,
+                const char* long_name, const char* units, const std::vector<Known>& values) {
+    const auto known = [](const Known& value) { return value.has_value(); };
+    if (std::none_of(values.begin(), values.end(), known)) return NetcdfBuilder::file;
+    const int variable = parts.variable(name, NC_FLOAT, dimensions, long_name, units);
+    parts.file.fill_value(variable, static_cast<double>(NC_FILL_FLOAT));
+    std::vector<float> filled;
+    filled.reserve(values.size());
+    for (const auto& value : values)
+        filled.push_back(value.value_or(NC_FILL_FLOAT));
+    parts.file.write(variable, std::span<const float>(filled));
+    return variable;
+}
 
-    const int fixed =
-        parts.variable("fixed_angle", NC_FLOAT, {parts.sweep}, "target_fixed_angle", "degrees");
-    parts.file.text(fixed, "comment",
-                    "as the VCP has it; where it is not known, the median of the elevations");
-    const auto angles_deg = of_each_sweep<float>(parts, fixed_angle_deg);
-    parts.file.write(fixed, std::span<const float>(angles_deg));
-    write("elevation_number", "cut of the VCP, from 1",
-          of_each_sweep<int>(parts, [](const Sweep& s) { return s.elevation_number; }));
-    write("message_type", "Level II message of the radials, 1 or 31",
-          of_each_sweep<int>(parts, [](const Sweep& s) { return s.message_type; }));
-    parts.words("rays_are_indexed", {parts.sweep, parts.letter}, "flag_for_indexed_rays",
-                of_each_sweep<std::string>(parts, [](const Sweep& s) {
-                    return s.radials.front().azimuth_indexing != 0 ? "true" : "false";
-                }));
-    write_known(parts, "ray_angle_res", parts.sweep, "angular_resolution_between_rays", "degrees",
-                of_each_sweep<Known>(
-                    parts, [](const Sweep& s) { return unless_zero(s.azimuth_spacing_deg); }));
+Known unless_zero(float value) {
+    return value == 0 ? std::nullopt : Known{value};
+}
+
+void write_ints(const CfradialParts& parts, const char* name, const std::vector<int>& dimensions,
+                const char* long_name, const std::vector<int>& values) {
+    const int variable = parts.variable(name, NC_INT, dimensions, long_name, "1");
+    parts.file.write(variable, std::span<const int>(values));
 }
 
 void write_radial_variables(const CfradialParts& parts) {

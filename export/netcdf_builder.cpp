@@ -17,11 +17,12 @@ Mutex& library_mutex() {
 
 NetcdfBuilder::NetcdfBuilder() {
     // The file exists in memory only, so its name does not matter.
-    open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &id_), "begin");
+    open_ = good(nc_create_mem("memory.nc", NC_NETCDF4 | NC_CLOBBER, 0, &root_), "begin");
+    id_ = root_;
 }
 
 NetcdfBuilder::~NetcdfBuilder() {
-    if (open_) nc_abort(id_);
+    if (open_) nc_abort(root_);
 }
 
 bool NetcdfBuilder::good(int code, const char* doing) {
@@ -30,6 +31,10 @@ bool NetcdfBuilder::good(int code, const char* doing) {
         failed_doing_ = doing;
     }
     return failure_ == NC_NOERR;
+}
+
+void NetcdfBuilder::group(const char* name) {
+    if (failure_ == NC_NOERR) good(nc_def_grp(root_, name, &id_), name);
 }
 
 int NetcdfBuilder::dimension(const char* name, std::size_t size) {
@@ -135,6 +140,14 @@ void NetcdfBuilder::write(int variable, std::span<const char> characters) {
     write_by(nc_put_var_text, variable, characters);
 }
 
+void NetcdfBuilder::write(int variable, std::span<const std::string> values) {
+    std::vector<const char*> strings;
+    for (const std::string& value : values)
+        strings.push_back(value.c_str());
+    if (failure_ != NC_NOERR || strings.empty()) return;
+    good(nc_put_var_string(id_, variable, strings.data()), "write");
+}
+
 void NetcdfBuilder::write_first(int variable, double value) {
     if (failure_ != NC_NOERR) return;
     const std::size_t first = 0;
@@ -164,7 +177,7 @@ void NetcdfBuilder::write_rows(int variable, const Rows& rows,
 Result<std::vector<std::byte>> NetcdfBuilder::finish() {
     NC_memio memory{};
     if (failure_ == NC_NOERR) {
-        good(nc_close_memio(id_, &memory), "close");
+        good(nc_close_memio(root_, &memory), "close");
         open_ = false;
     }
     if (failure_ != NC_NOERR) {

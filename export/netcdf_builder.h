@@ -30,6 +30,11 @@ class NetcdfBuilder {
     // number of a variable, it means "no variable".
     static constexpr int file = -1;
 
+    // Makes a group in the root of the file. From then on the builder writes into this group:
+    // `file` then means the group, and only its own variables can be written. Dimensions of the
+    // root can be used in it.
+    void group(const char* name);
+
     // Makes a dimension. As in netCDF, a size of 0 makes an unlimited dimension, which is empty at
     // first.
     int dimension(const char* name, std::size_t size);
@@ -58,6 +63,9 @@ class NetcdfBuilder {
     // the other.
     void write(int variable, std::span<const char> characters);
 
+    // Writes a variable of strings (type NC_STRING).
+    void write(int variable, std::span<const std::string> values);
+
     // Writes element 0 of a variable on an unlimited dimension. The dimension then has the length
     // 1, as write() needs for the other variables.
     void write_first(int variable, double value);
@@ -82,7 +90,8 @@ class NetcdfBuilder {
     void write_rows_by(int (*put)(int, int, const std::size_t*, const std::size_t*, const Value*),
                        int variable, const Rows& rows, std::span<const Value> values);
 
-    int id_ = -1;
+    int root_ = -1;
+    int id_ = -1;  // of the root or the current group
     bool open_ = false;
     int failure_ = 0;
     std::string failed_doing_;

@@ -32,9 +32,9 @@ struct InfoOptions {
     bool json = false;
     bool echo = false;
     int threads = 0;  // 0: as many as the machine has
-    std::string to;   // CfRadial file to write; empty: none
+    std::string to;   // file to write the volume to; empty: none
     int volume = 0;   // number in the file, from 1; 0: its only volume
-    bool own_ranges = false;
+    VolumeExportOptions exported;
     std::string dealias;               // empty: not typed
     std::vector<std::string> derived;  // names of moments
     SiteOptions site;
@@ -168,7 +168,7 @@ std::uintmax_t size_of(const std::vector<std::filesystem::path>& chunks) {
     return sum;
 }
 
-// Checks, before the long work begins, that the CfRadial file can be written.
+// Checks, before the long work begins, that the file can be written.
 Status check_output(const InfoOptions& options) {
     if (options.to.empty()) return {};
     for (const std::string& file : options.files) {
@@ -177,8 +177,13 @@ Status check_output(const InfoOptions& options) {
         return fail(ErrorCode::bad_argument, "{}: this is the input file itself; name another file",
                     options.to);
     }
-    return check_output_file(options.to, {".nc", ".nc4"}, "CfRadial is written as netCDF",
-                             options.json);
+    if (options.exported.format.empty()) {
+        return check_output_file(options.to, volume_export::volume_endings(),
+                                 "the ending chooses the format", options.json);
+    }
+    const volume_export::VolumeFormat& format = format_for(options.exported);
+    return check_output_file(options.to, {format.endings.begin(), format.endings.end()},
+                             fmt::format("the format is {}", format.name), options.json);
 }
 
 // Returns the index of the volume to write. The index is 0 if the file is a set of chunks of which
@@ -247,7 +252,7 @@ Status write_chosen(const InfoOptions& options, const InputFile& file, level2::D
     auto output = OutputFile::open(options.to);
     if (!output) return pass_on(output);
     Status written = export_volume(volumes, *chosen, report, file.file_name(), output->path(),
-                                   options.own_ranges);
+                                   format_for(options.exported, options.to), options.exported);
     return written ? output->finish() : written;
 }
 
@@ -277,7 +282,10 @@ Result<nlohmann::ordered_json> run_one(const InfoOptions& options, InputFiles& i
         const Status written = write_chosen(options, file, std::move(*decoded));
         if (!written) return pass_on(written);
         json["written"] = options.to;
-        if (!is_taken) fmt::print("\n{}: written as CfRadial\n", printable(options.to));
+        if (!is_taken) {
+            fmt::print("\n{}: written as {}\n", printable(options.to),
+                       format_for(options.exported, options.to).name);
+        }
     }
     return json;
 }
@@ -352,14 +360,14 @@ Run set_up_info(CLI::App& info) {
     info.add_flag("--echo", options->echo,
                   "Also say what the echo is: weather, or which kind of other echo, and between "
                   "which heights snow melts");
-    CLI::Option* to = info.add_option("--to", options->to,
-                                      "Also write the volume to this file as CfRadial netCDF");
+    CLI::Option* to = info.add_option(
+        "--to", options->to, "Also write the volume to this file, such as x.nc (CfRadial)");
     info.add_option("--volume", options->volume,
                     "Number of the volume, from 1: the one to write if the file holds several, or "
                     "the one to describe if a directory has chunks of several (default: the "
                     "newest)")
         ->check(CLI::Range(1, 1000));
-    add_own_ranges(info, options->own_ranges)->needs(to);
+    add_volume_export_options(info, options->exported, to);
     info.add_option("--dealias", options->dealias,
                     fmt::format("Also write the dealiased velocity, VEL_dealiased: {}",
                                 retrieve::dealiasing_names()))

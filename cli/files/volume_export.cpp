@@ -5,33 +5,51 @@
 #include "level2/decode/problem_notes.h"
 #include "level2/decode/volume_checks.h"
 #include "stormcellar/base/file_system.h"
-#include "stormcellar/export/cfradial.h"
 
 namespace stormcellar::cli {
 
 Status export_volume(const std::vector<level2::Volume>& volumes, std::size_t number,
                      const level2::DecodeReport& report, const std::filesystem::path& source,
-                     const std::filesystem::path& to, bool own_ranges) {
+                     const std::filesystem::path& to, const volume_export::VolumeFormat& format,
+                     const VolumeExportOptions& options) {
     const level2::Volume& volume = volumes[number];
-    netcdf::VolumeWriteOptions options;
-    options.source_file = source.filename().string();
-    if (own_ranges) options.ranges = netcdf::RangeAxes::of_each_geometry;
-    options.notes = level2::notes_of(report);
-    options.complete = report.complete;
+    netcdf::VolumeWriteOptions writing;
+    writing.source_file = source.filename().string();
+    if (options.own_ranges) writing.ranges = netcdf::RangeAxes::of_each_geometry;
+    writing.notes = level2::notes_of(report);
+    writing.complete = report.complete;
     if (volumes.size() > 1) {
-        options.complete = !report.damaged && level2::is_complete(volume);
-        options.notes.insert(options.notes.begin(),
+        writing.complete = !report.damaged && level2::is_complete(volume);
+        writing.notes.insert(writing.notes.begin(),
                              fmt::format("the file holds {} volumes; this is number {}",
                                          volumes.size(), number + 1));
     }
-    return netcdf::write_volume(real_file_system(), to, volume, options);
+    return format.write(real_file_system(), to, volume, writing);
 }
 
-CLI::Option* add_own_ranges(CLI::App& app, bool& own_ranges) {
-    return app.add_flag(
-        "--own-ranges", own_ranges,
-        "In netCDF, write every gate once, with a range axis for each gate length. Default: one "
-        "axis if the lengths allow it, on which longer gates are repeated");
+void add_volume_export_options(CLI::App& app, VolumeExportOptions& options, CLI::Option* needed) {
+    std::vector<std::string> names;
+    for (const volume_export::VolumeFormat& format : volume_export::volume_formats())
+        names.emplace_back(format.option);
+    app.add_option("--format", options.format,
+                   fmt::format("Format of volumes: {}. Default: by the ending of the file, or "
+                               "cfradial",
+                               volume_export::known_volume_formats()))
+        ->check(CLI::IsMember(names))
+        ->needs(needed);
+    app.add_flag("--own-ranges", options.own_ranges,
+                 "In netCDF and UF, write every gate once, with a range axis for each gate "
+                 "length. Default: one axis if the lengths allow it, on which longer gates are "
+                 "repeated")
+        ->needs(needed);
+}
+
+const volume_export::VolumeFormat& format_for(const VolumeExportOptions& options,
+                                              std::string_view file_name) {
+    const auto* format = options.format.empty()
+                             ? volume_export::volume_format_of(file_name)
+                             : volume_export::volume_format_named(options.format);
+    return format == nullptr ? volume_export::volume_formats().front() : *format;
 }
 
 }  // namespace stormcellar::cli

@@ -231,9 +231,8 @@ CLI::App* add_query(CLI::App& parent, CatalogOptions& options, const std::string
 }
 
 CLI::App* add_get(CLI::App& command, CatalogOptions& options, const std::string& station_help) {
-    CLI::App* get =
-        add_query(command, options, "get",
-                  "Copy raw files out of the archive, or write their volumes as netCDF");
+    CLI::App* get = add_query(command, options, "get",
+                              "Copy raw files out of the archive, or decode their volumes");
     get->add_option("--station", options.station, station_help)->required();
     add_time_range(*get, options.times);
     get->add_option("-o,--output", options.get.output,
@@ -242,8 +241,9 @@ CLI::App* add_get(CLI::App& command, CatalogOptions& options, const std::string&
     get->add_flag("--force", options.get.force, "Replace files that exist already");
     CLI::Option* decode =
         get->add_flag("--decode", options.get.decode,
-                      "Write each volume as CfRadial netCDF instead of copying its file");
-    add_own_ranges(*get, options.get.own_ranges)->needs(decode);
+                      "Write each volume, as CfRadial netCDF unless --format names another "
+                      "format, instead of copying its file");
+    add_volume_export_options(*get, options.get.exported, decode);
     return get;
 }
 

@@ -7,7 +7,6 @@
 #include <set>
 #include <thread>
 
-#include "cli/files/volume_export.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/output_file.h"
 #include "pipeline/drop/cataloged_volume.h"
@@ -139,19 +138,21 @@ std::vector<std::size_t> matched_volumes(const MatchedFile& file,
 }
 
 Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& file,
-                     Targets& targets, bool own_ranges) {
+                     Targets& targets, const VolumeExportOptions& options) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
     const std::vector<level2::Volume> volumes = level2::split_volumes(std::move(*decoded));
     const std::string name = name_without_compression(name_of_file(file.entry));
-    const bool alone = volumes.size() == 1;
+    const volume_export::VolumeFormat& format = format_for(options);
+    const std::string_view ending = format.endings.front();
     const auto matched = matched_volumes(file, volumes);
     for (const std::size_t i : matched) {
         const auto to =
-            targets.claim(alone ? name + ".nc" : fmt::format("{}_volume{}.nc", name, i + 1));
+            targets.claim(volumes.size() == 1 ? fmt::format("{}{}", name, ending)
+                                              : fmt::format("{}_volume{}{}", name, i + 1, ending));
         if (!to) return pass_on(to);
-        auto done = export_volume(volumes, i, report, file.entry.path, *to, own_ranges);
+        auto done = export_volume(volumes, i, report, file.entry.path, *to, format, options);
         if (!done) return done;
         fmt::print("{}\n", printable(to->native()));
     }
@@ -161,7 +162,7 @@ Status write_decoded(const catalog::CatalogReader& catalog, const MatchedFile& f
 }
 
 Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile& file,
-                        bool own_ranges) {
+                        const VolumeExportOptions& options) {
     auto decoded = decode_raw(catalog, file.entry);
     if (!decoded) return pass_on(decoded);
     const level2::DecodeReport report = decoded->report;
@@ -174,7 +175,7 @@ Status decode_to_stdout(const catalog::CatalogReader& catalog, const MatchedFile
     auto output = OutputFile::open("-");
     if (!output) return pass_on(output);
     Status written = export_volume(volumes, matched.front(), report, file.entry.path,
-                                   output->path(), own_ranges);
+                                   output->path(), format_for(options), options);
     return written ? output->finish() : written;
 }
 
@@ -184,7 +185,7 @@ Status get_to_stdout(const catalog::CatalogReader& catalog, const std::vector<Ma
     if (files.size() != 1) {
         return fail(ErrorCode::bad_argument, "-o - takes one file, but {} matched", files.size());
     }
-    if (options.decode) return decode_to_stdout(catalog, files.front(), options.own_ranges);
+    if (options.decode) return decode_to_stdout(catalog, files.front(), options.exported);
     const auto bytes = read_raw(catalog, files.front().entry);
     if (!bytes) return pass_on(bytes);
     return write_output("-", *bytes);
@@ -207,9 +208,8 @@ int get_files(const catalog::CatalogReader& catalog, const std::vector<CatalogEn
     Targets targets(options);
     int status = exit_done;
     for (const MatchedFile& file : files_of(entries)) {
-        const Status done = options.decode
-                                ? write_decoded(catalog, file, targets, options.own_ranges)
-                                : copy_raw(catalog, file, targets);
+        const Status done = options.decode ? write_decoded(catalog, file, targets, options.exported)
+                                           : copy_raw(catalog, file, targets);
         if (!done) status = report_error(done.error());
     }
     return status;

@@ -34,7 +34,7 @@ TEST(CfradialLayout, MomentsOfOneGeometryShareOneAxisAsLongAsTheLongestRadial) {
         small_volume({small_sweep(1, {small_moment(Moment::vel, {{2, 3}, {4}}),
                                       small_moment(Moment::ref, {{2, 3, 4}, {}})}),
                       small_sweep(2, {small_moment(Moment::ref, {{2, 3, 4, 5, 6}})})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range"));
     EXPECT_EQ(layout->axes.at(0).gates, 5U);
@@ -51,7 +51,7 @@ TEST(CfradialLayout, LegacyMomentsHaveAxesOfTheirOwn) {
         small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2, 3}})),
                                       small_moment(Moment::vel, {{2, 3, 4, 5, 6, 7, 8, 9}}),
                                       small_moment(Moment::sw, {{2, 3, 4, 5, 6, 7, 8, 9}})})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range_2", "SW on range_2"));
     EXPECT_EQ(layout->axes.at(0).gates, 2U);
@@ -62,7 +62,7 @@ TEST(CfradialLayout, TheKindThatMostRadialsHaveTakesThePlainName) {
     const auto volume =
         small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2}, {3}}))}),
                       small_sweep(2, {small_moment(Moment::ref, {{2}, {3}, {4}})})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "REF_2 on range_2"));
     EXPECT_EQ(layout->axes.at(0).gate_spacing_m, 250);
@@ -75,7 +75,7 @@ TEST(CfradialLayout, ADifferenceInScaleOffsetOrWordSizeMakesAField) {
     kinds[2].offset = 129;
     kinds[3] = wide_moment(Moment::vel, {{}, {}, {}, {2}});
     const auto volume = small_volume({small_sweep(1, kinds)});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout),
                 ElementsAre("VEL on range", "VEL_2 on range", "VEL_3 on range", "VEL_4 on range"));
@@ -85,7 +85,7 @@ TEST(CfradialLayout, ASweepThatHoldsOneKindTwiceLosesNeither) {
     const SweepMoment first = small_moment(Moment::ref, {{2}, {3}});
     const SweepMoment again = small_moment(Moment::ref, {{4}, {5}});
     const auto volume = small_volume({small_sweep(1, {first, again})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "REF_2 on range"));
 }
@@ -94,14 +94,14 @@ TEST(CfradialLayout, AScaleThatIsNoNumberIsOneScale) {
     SweepMoment odd = small_moment(Moment::ref, {{2}});
     odd.scale = std::numeric_limits<float>::quiet_NaN();
     const auto volume = small_volume({small_sweep(1, {odd}), small_sweep(2, {odd})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range"));
 }
 
 TEST(CfradialLayout, WhatHasNoGatesIsNoField) {
     const auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{}, {}})})});
-    const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
     ASSERT_TRUE(layout);
     EXPECT_TRUE(layout->fields.empty());
     ASSERT_EQ(layout->axes.size(), 1U);
@@ -112,9 +112,9 @@ TEST(CfradialLayout, WhatHasNoGatesIsNoField) {
 TEST(CfradialLayout, RefusesWhatDoesNotFitItself) {
     const auto refused = [](auto spoil) {
         auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{2, 3}, {4}})})});
-        EXPECT_TRUE(lay_out(volume, RangeAxes::of_each_geometry));
+        EXPECT_TRUE(lay_out(volume.sweeps, RangeAxes::of_each_geometry));
         spoil(volume.sweeps[0]);
-        const auto layout = lay_out(volume, RangeAxes::of_each_geometry);
+        const auto layout = lay_out(volume.sweeps, RangeAxes::of_each_geometry);
         return !layout && layout.error().code == ErrorCode::bad_argument;
     };
     using level2::Sweep;
@@ -133,7 +133,7 @@ TEST(CfradialLayout, OnOneAxisALegacyGateOfOneKilometerStandsFourTimes) {
     doppler.first_gate_m = -375;
     const auto volume =
         small_volume({small_sweep(1, {at_1km(small_moment(Moment::ref, {{2, 3, 4}})), doppler})});
-    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::one_if_possible);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range", "VEL on range"));
     ASSERT_EQ(layout->axes.size(), 1U);
@@ -157,7 +157,7 @@ TEST(CfradialLayout, OnOneAxisAMomentOfTwoGateLengthsIsOneField) {
     near.first_gate_m = 0;
     near.gate_spacing_m = 150;
     const auto volume = small_volume({small_sweep(1, {far}), small_sweep(2, {near})});
-    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::one_if_possible);
     ASSERT_TRUE(layout);
     EXPECT_THAT(names(*layout), ElementsAre("REF on range"));
     EXPECT_EQ(layout->axes.at(0).gates, 6U);
@@ -170,7 +170,7 @@ TEST(CfradialLayout, TheOneAxisBeginsWithTheNearestGate) {
     SweepMoment ref = at_1km(small_moment(Moment::ref, {{2, 3}}));
     ref.first_gate_m = 1000;  // the first gate begins at 500 m
     const auto volume = small_volume({small_sweep(1, {ref, doppler})});
-    const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+    const auto layout = lay_out(volume.sweeps, RangeAxes::one_if_possible);
     ASSERT_TRUE(layout);
     ASSERT_EQ(layout->axes.size(), 1U);
     EXPECT_EQ(layout->axes[0].first_gate_m, 625);
@@ -185,7 +185,7 @@ TEST(CfradialLayout, GatesThatNoAxisCanHoldHaveAxesOfTheirOwn) {
         odd.first_gate_m = first_gate_m;
         odd.gate_spacing_m = spacing_m;
         const auto volume = small_volume({small_sweep(1, {small_moment(Moment::ref, {{2}}), odd})});
-        const auto layout = lay_out(volume, RangeAxes::one_if_possible);
+        const auto layout = lay_out(volume.sweeps, RangeAxes::one_if_possible);
         return layout ? layout->axes.size() : 0;
     };
     EXPECT_EQ(axes(2125, 500), 1U);
@@ -207,9 +207,9 @@ TEST(CfradialLayout, MoreKindsThanAnyRadarHasAreADamagedFile) {
     };
     while (sweeps.size() < most_cfradial_fields)
         add();
-    EXPECT_TRUE(lay_out(small_volume(sweeps), RangeAxes::of_each_geometry));
+    EXPECT_TRUE(lay_out(sweeps, RangeAxes::of_each_geometry));
     add();
-    const auto layout = lay_out(small_volume(sweeps), RangeAxes::of_each_geometry);
+    const auto layout = lay_out(sweeps, RangeAxes::of_each_geometry);
     ASSERT_FALSE(layout);
     EXPECT_EQ(layout.error().code, ErrorCode::unsupported);
 }

@@ -1,4 +1,5 @@
-// tests/export/netcdf_reader.h -- reads a netCDF file; a missing item fails the test.
+// tests/export/netcdf_reader.h -- reads a netCDF or HDF5 file, or one group of it; a missing item
+// fails the test.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,13 @@ namespace stormcellar::netcdf {
 class Reader {
   public:
     explicit Reader(const std::filesystem::path& path) {
-        EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &id_), NC_NOERR);
+        EXPECT_EQ(nc_open(path.c_str(), NC_NOWRITE, &root_), NC_NOERR);
+        id_ = root_;
     }
-    ~Reader() { nc_close(id_); }
+    Reader(const std::filesystem::path& path, const std::string& group) : Reader(path) {
+        EXPECT_EQ(nc_inq_grp_full_ncid(root_, ("/" + group).c_str(), &id_), NC_NOERR) << group;
+    }
+    ~Reader() { nc_close(root_); }
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
@@ -30,6 +35,18 @@ class Reader {
         std::string read(count, '\0');
         EXPECT_EQ(nc_get_var_text(id_, variable(name), read.data()), NC_NOERR) << name;
         return read;
+    }
+    // Reads a single string (NC_STRING).
+    std::string string(const char* name) {
+        char* read = nullptr;
+        EXPECT_EQ(nc_get_var_string(id_, variable(name), &read), NC_NOERR) << name;
+        const std::string found = read == nullptr ? "" : read;
+        nc_free_string(1, &read);
+        return found;
+    }
+    bool has_group(const char* name) {
+        int found = -1;
+        return nc_inq_grp_ncid(id_, name, &found) == NC_NOERR;
     }
     // Returns an attribute of a variable, or of the file if `of` is null.
     std::string text(const char* of, const char* name) {
@@ -46,12 +63,13 @@ class Reader {
         EXPECT_EQ(nc_get_att_double(id_, owner, name, &read), NC_NOERR) << name;
         return read;
     }
-    // Returns an attribute of a variable that has several numbers.
+    // Returns an attribute that has several numbers.
     std::vector<double> numbers(const char* of, const char* name) {
+        const int owner = of == nullptr ? NC_GLOBAL : variable(of);
         std::size_t length = 0;
-        EXPECT_EQ(nc_inq_attlen(id_, variable(of), name, &length), NC_NOERR) << name;
+        EXPECT_EQ(nc_inq_attlen(id_, owner, name, &length), NC_NOERR) << name;
         std::vector<double> read(length);
-        EXPECT_EQ(nc_get_att_double(id_, variable(of), name, read.data()), NC_NOERR) << name;
+        EXPECT_EQ(nc_get_att_double(id_, owner, name, read.data()), NC_NOERR) << name;
         return read;
     }
     std::size_t length(const char* dimension) {
@@ -83,7 +101,8 @@ class Reader {
         EXPECT_EQ(nc_inq_varid(id_, name, &found), NC_NOERR) << name;
         return found;
     }
-    int id_ = 0;
+    int root_ = 0;
+    int id_ = 0;  // of the root or the group
 };
 
 }  // namespace stormcellar::netcdf
