@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/format_list.h"
+#include "export/grid_gltf.h"
 #include "export/grid_zarr.h"
 #include "stormcellar/export/grid_netcdf.h"
 
@@ -12,19 +13,20 @@ namespace {
 constexpr std::array<std::string_view, 2> netcdf_endings{".nc", ".nc4"};
 constexpr std::array<std::string_view, 1> zarr2_endings{".zarr"};
 constexpr std::array<std::string_view, 1> zarr3_endings{".zarr3"};
+constexpr std::array<std::string_view, 1> gltf_endings{".glb"};
 
 Status write_netcdf(FileSystem& file_system, const std::filesystem::path& path,
-                    std::span<const grid::Grid> grids) {
+                    std::span<const grid::Grid> grids, const GridFormatOptions& /*options*/) {
     return netcdf::write_grids(file_system, path, grids);
 }
 
 Status write_zarr2(FileSystem& file_system, const std::filesystem::path& path,
-                   std::span<const grid::Grid> grids) {
+                   std::span<const grid::Grid> grids, const GridFormatOptions& /*options*/) {
     return zarr::write_store(file_system, path, grids, zarr::ZarrVersion::two);
 }
 
 Status write_zarr3(FileSystem& file_system, const std::filesystem::path& path,
-                   std::span<const grid::Grid> grids) {
+                   std::span<const grid::Grid> grids, const GridFormatOptions& /*options*/) {
     return zarr::write_store(file_system, path, grids, zarr::ZarrVersion::three);
 }
 
@@ -32,6 +34,7 @@ constexpr std::array formats{
     GridFormat{"netCDF", netcdf_endings, write_netcdf},
     GridFormat{"Zarr 2", zarr2_endings, write_zarr2, zarr::check_store},
     GridFormat{"Zarr 3", zarr3_endings, write_zarr3, zarr::check_store},
+    GridFormat{"glTF surfaces", gltf_endings, surfaces::write_gltf, nullptr, true},
 };
 
 }  // namespace

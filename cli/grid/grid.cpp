@@ -16,6 +16,7 @@
 #include "cli/grid/grid_notes.h"
 #include "cli/grid/grid_report.h"
 #include "cli/grid/grid_request.h"
+#include "cli/grid/surface_options.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/output_file.h"
 #include "stormcellar/base/file_system.h"
@@ -62,13 +63,18 @@ Status report_plans(const GridOptions& options, const std::vector<MadeGrid>& all
     return {};
 }
 
-Status write_all(const GridOptions& options, const std::vector<grid::Grid>& grids) {
+// Standard output has no file ending that chooses a format, so it gets the default format.
+const grid_export::GridFormat& format_of(const GridOptions& options) {
+    const auto* format = grid_export::grid_format_of(options.output);
+    return format != nullptr ? *format : grid_export::grid_formats().front();
+}
+
+Status write_all(const GridOptions& options, const std::vector<grid::Grid>& grids,
+                 const grid_export::GridFormatOptions& format_options) {
     auto output = OutputFile::open(options.output);
     if (!output) return pass_on(output);
-    const auto* format = grid_export::grid_format_of(options.output);
-    // Standard output has no file ending that chooses a format, so use the default format.
-    if (format == nullptr) format = &grid_export::grid_formats().front();
-    const auto written = format->write(real_file_system(), output->path(), grids);
+    const auto written =
+        format_of(options).write(real_file_system(), output->path(), grids, format_options);
     if (!written) return written;
     return output->finish();
 }
@@ -85,7 +91,7 @@ void print_notes(const std::vector<grid::Grid>& grids, const std::vector<MomentR
 }
 
 int run_grid(GridOptions options, const EffectOptions& effect_options,
-             const MosaicOptions& mosaic_options) {
+             const MosaicOptions& mosaic_options, const SurfaceOptions& surface_options) {
     Stopwatch total;
     options.output = without_slash(options.output);
     const auto inputs = find_inputs(options);
@@ -98,6 +104,11 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
     GridTimings timings;
     if (auto writable = check_output(options, **inputs); !writable)
         return report_error(writable.error());
+    std::vector<level2::Moment> names;
+    for (const MomentRequest& moment : *moments)
+        names.push_back(moment.moment);
+    const auto surfaces = parse_surfaces(surface_options, format_of(options), names);
+    if (!surfaces) return report_error(surfaces.error());
     auto made = grid_inputs(options.files, *request, *moments, timings);
     if (!made) return report_error(made.error());
     if (Status met = report_plans(options, *made, effect_options.explain); !met)
@@ -106,7 +117,8 @@ int run_grid(GridOptions options, const EffectOptions& effect_options,
     for (MadeGrid& one : *made)
         grids.push_back(std::move(one.grid));
     Stopwatch watch;
-    if (Status written = write_all(options, grids); !written) return report_error(written.error());
+    if (Status written = write_all(options, grids, *surfaces); !written)
+        return report_error(written.error());
     timings.write_s = watch.lap_s();
     timings.total_s = total.lap_s();
     print_notes(grids, *moments);
@@ -128,7 +140,9 @@ Run set_up_grid(CLI::App& grid) {
     add_grid_options(grid, *options);
     add_mosaic_options(grid, *mosaic, *effects);
     add_effect_options(grid, *effects);
-    return [=] { return run_grid(*options, *effects, *mosaic); };
+    const auto surfaces = std::make_shared<SurfaceOptions>();
+    add_surface_options(grid, *surfaces);
+    return [=] { return run_grid(*options, *effects, *mosaic, *surfaces); };
 }
 
 }  // namespace stormcellar::cli

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/number_list.h"
+#include "cli/grid/surface_options.h"
 #include "cli/picture/cell_scans.h"
 #include "cli/picture/nowcast_grids.h"
 #include "cli/picture/nowcast_text.h"
@@ -102,7 +103,10 @@ Status write_grid(const std::string& output, const cache::GridDescription& descr
     grid.end_time = description.end_time;
     grid.sites = description.sites;
     grid.provenance = description.provenance;
-    return grid_format_of(output)->write(real_file_system(), output, std::span(&grid, 1));
+    const grid_export::GridFormat& format = *grid_format_of(output);
+    const auto options = parse_surfaces({}, format, std::span(&grid.moment, 1));
+    if (!options) return pass_on(options);
+    return format.write(real_file_system(), output, std::span(&grid, 1), *options);
 }
 
 // Finds the storm cells of the grids, if they are to be marked. Pictures move them to their time.

@@ -226,6 +226,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--extent-km", "WIDTH,HEIGHT"},
     {"--extent-deg", "WIDTH,HEIGHT"},
     {"--levels-km", "HEIGHTS"},
+    {"--surfaces", "VALUES"},
     {"--spacing-km", "KM"},
     {"--ring-spacing-km", "KM"},
     {"--height-km", "KM"},

@@ -45,12 +45,13 @@ TEST(GridFormat, NetcdfIsTheDefaultAndWritesWhatWriteGridWrites) {
     const auto direct = directory.path() / "direct.nc";
     const auto by_format = directory.path() / "format.nc";
     ASSERT_TRUE(netcdf::write_grid(real_file_system(), direct, grid));
-    const Status written = grid_formats().front().write(real_file_system(), by_format, {&grid, 1});
+    const Status written =
+        grid_formats().front().write(real_file_system(), by_format, {&grid, 1}, {});
     ASSERT_TRUE(written) << written.error().message;
     EXPECT_EQ(std::filesystem::file_size(direct), std::filesystem::file_size(by_format));
     // The format also refuses a grid whose arrays do not fit.
     grid.values.pop_back();
-    EXPECT_FALSE(grid_formats().front().write(real_file_system(), by_format, {&grid, 1}));
+    EXPECT_FALSE(grid_formats().front().write(real_file_system(), by_format, {&grid, 1}, {}));
 }
 
 }  // namespace

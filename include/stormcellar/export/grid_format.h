@@ -6,6 +6,9 @@
 // Threads   Any thread. Each format says whether its calls wait for each other.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -18,6 +21,19 @@
 
 namespace stormcellar::grid_export {
 
+// A surface on which the values of a grid equal `value`, and its color in sRGB.
+struct GridSurface {
+    double value = 0;
+    std::array<std::uint8_t, 3> color = {255, 255, 255};
+};
+inline constexpr std::size_t most_surfaces = 16;
+
+// The choices of some formats. Other formats ignore them.
+struct GridFormatOptions {
+    std::vector<GridSurface> surfaces;  // the outermost first
+    double height_scale = 1;            // factor on heights
+};
+
 struct GridFormat {
     std::string_view name;                      // "netCDF"
     std::span<const std::string_view> endings;  // of file names; the first is the usual one
@@ -25,10 +41,11 @@ struct GridFormat {
     // The grids share their cells and their time. Errors: bad_argument for grids that the format
     // cannot hold; internal if a library refuses; those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
-                    std::span<const grid::Grid> grids);
+                    std::span<const grid::Grid> grids, const GridFormatOptions& options);
     // For a format that writes a directory: checks, before long work, that it can. Null for a
     // format that writes a file.
     Status (*check_directory)(const std::filesystem::path& path) = nullptr;
+    bool has_surfaces = false;  // true if the format takes the surfaces and the factor on heights
 };
 
 // Returns all formats. The first one is the default if no file name chooses one.
