@@ -28,7 +28,7 @@ class Scoped {
 };
 
 // A chunk holds half a sweep of half-degree radials.
-constexpr hsize_t chunk_rows = 360;
+constexpr hsize_t most_chunk_rows = 360;
 // The file grows in memory by this number of bytes.
 constexpr std::size_t growth_bytes = std::size_t{1} << 20;
 
@@ -117,7 +117,7 @@ void Hdf5Builder::plane(const char* name, Handle type, std::size_t rows, std::si
     const Scoped creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     good(H5Pset_obj_track_times(creation, false), name);
     if (deflate_level_ > 0) {
-        const std::array<hsize_t, 2> chunk{std::min(sizes[0], chunk_rows), sizes[1]};
+        const std::array<hsize_t, 2> chunk{std::min(sizes[0], most_chunk_rows), sizes[1]};
         good(H5Pset_chunk(creation, 2, chunk.data()), name);
         good(H5Pset_shuffle(creation), name);
         good(H5Pset_deflate(creation, static_cast<unsigned>(deflate_level_)), name);
