@@ -45,6 +45,11 @@ stormcellar_package(PkgConfig::microhttpd pkg_check_modules microhttpd REQUIRED 
 stormcellar_package(PkgConfig::netcdf pkg_check_modules netcdf REQUIRED IMPORTED_TARGET netcdf)
 stormcellar_package(PkgConfig::hdf5 pkg_check_modules hdf5 REQUIRED IMPORTED_TARGET hdf5)
 stormcellar_package(PkgConfig::hwy pkg_check_modules hwy REQUIRED IMPORTED_TARGET libhwy)
+if(STORMCELLAR_GRIB)
+  stormcellar_package(PkgConfig::eccodes pkg_check_modules eccodes REQUIRED IMPORTED_TARGET eccodes)
+  # eccodes.pc of Debian 12 names a directory that does not exist. Its headers are in the usual one.
+  set_target_properties(PkgConfig::eccodes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+endif()
 if(STORMCELLAR_VIDEO)
   stormcellar_package(PkgConfig::ffmpeg pkg_check_modules ffmpeg REQUIRED IMPORTED_TARGET
     libavformat libavcodec libavutil libswscale)

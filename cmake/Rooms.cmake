@@ -69,11 +69,14 @@ if(STORMCELLAR_PRECOMPILE)
   list(APPEND STORMCELLAR_TEST_BUILD -O0)
 endif()
 
-# Makes a build of the program also build the modules that the program may load: fetching and videos.
+# Makes a build of the program also build the modules that the program may load: fetching, videos and GRIB2.
 function(stormcellar_with_modules program)
   add_dependencies(${program} stormcellar_fetch_module)
   if(STORMCELLAR_VIDEO)
     add_dependencies(${program} stormcellar_video)
+  endif()
+  if(STORMCELLAR_GRIB)
+    add_dependencies(${program} stormcellar_grib)
   endif()
 endfunction()
 

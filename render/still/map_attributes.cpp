@@ -1,6 +1,7 @@
 #include "render/still/map_attributes.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "retrieve/derived/quality_note.h"
@@ -77,6 +78,16 @@ void add_numbers(const Scene& scene, netcdf::CfAttributes& attributes) {
     add("assumed_height_of_minus_20_C_m", scene.freezing_levels.minus_20_c_m);
 }
 
+// Returns the name of an attribute for a keyword of metadata: "Hail error" gives "hail_error".
+std::string attribute_name(std::string_view keyword) {
+    std::string name;
+    for (const char c : keyword) {
+        const bool is_letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
+        name += is_letter ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
+    }
+    return name;
+}
+
 }  // namespace
 
 std::span<const StateClass> state_classes(level2::Moment moment) {
@@ -140,6 +151,22 @@ std::string state_word(const StateClass& state) {
 
 bool may_have(Product product, const StateClass& state) {
     return state.code != at_least_code || facts_of(product).may_be_higher;
+}
+
+netcdf::CfAttributes map_file_attributes(const StillMap& map, const StillOptions& options) {
+    netcdf::CfAttributes attributes;
+    for (const auto& [keyword, text] : options.metadata)
+        if (keyword != "Units") attributes.emplace_back(attribute_name(keyword), text);
+    const auto add = [&](const char* name, const std::string& text) {
+        if (!text.empty()) attributes.emplace_back(name, text);
+    };
+    add("source", "weather radar Level II volumes");
+    add("volume", map.facts.partial ? "partial" : "complete");
+    add("quality", map.facts.quality);
+    add("dealiasing", map.facts.dealiasing);
+    add("nowcast", map.facts.nowcast);
+    add("nowcast_score", map.facts.nowcast_score);
+    return attributes;
 }
 
 }  // namespace stormcellar::render

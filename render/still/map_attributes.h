@@ -19,6 +19,7 @@
 #include "render/products/flat_field.h"
 #include "stormcellar/render/frame_facts.h"
 #include "stormcellar/render/scene.h"
+#include "stormcellar/render/still.h"
 
 namespace stormcellar::render {
 
@@ -40,6 +41,9 @@ inline constexpr std::uint8_t at_least_code = 4;
 [[nodiscard]] std::string map_variable(Product product);
 // Returns the attributes of the product's variable. `units` of the scene do not change them.
 [[nodiscard]] netcdf::CfAttributes map_attributes(const Scene& scene, const FrameFacts& facts);
+// Returns the attributes of the file: the texts of `options`, and facts of the grid.
+[[nodiscard]] netcdf::CfAttributes map_file_attributes(const StillMap& map,
+                                                       const StillOptions& options);
 // Returns the attributes of the variable of states, without the flags.
 [[nodiscard]] netcdf::CfAttributes map_state_attributes(const Scene& scene);
 // Returns the word for a state: its name with underscores.

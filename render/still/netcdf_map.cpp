@@ -1,8 +1,7 @@
 // Writes netCDF: a map as a variable (time, y, x) in the grid's own projection, with the states of
 // its columns. A cell is a column of the grid, so nothing is resampled.
-#include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <utility>
 
 #include "export/map_netcdf.h"
 #include "render/still/map_attributes.h"
@@ -10,35 +9,6 @@
 #include "render/still/still_format.h"
 
 namespace stormcellar::render {
-namespace {
-
-// Returns the name of an attribute for a keyword of metadata: "Hail error" gives "hail_error".
-std::string attribute_name(std::string_view keyword) {
-    std::string name;
-    for (const char c : keyword) {
-        const bool is_letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
-        name += is_letter ? static_cast<char>(std::tolower(static_cast<unsigned char>(c))) : '_';
-    }
-    return name;
-}
-
-netcdf::CfAttributes file_attributes(const StillMap& map, const StillOptions& options) {
-    netcdf::CfAttributes attributes;
-    for (const auto& [keyword, text] : options.metadata)
-        if (keyword != "Units") attributes.emplace_back(attribute_name(keyword), text);
-    const auto add = [&](const char* name, const std::string& text) {
-        if (!text.empty()) attributes.emplace_back(name, text);
-    };
-    add("source", "weather radar Level II volumes");
-    add("volume", map.facts.partial ? "partial" : "complete");
-    add("quality", map.facts.quality);
-    add("dealiasing", map.facts.dealiasing);
-    add("nowcast", map.facts.nowcast);
-    add("nowcast_score", map.facts.nowcast_score);
-    return attributes;
-}
-
-}  // namespace
 
 Result<std::vector<std::byte>> encode_netcdf(const StillMap& map, const StillOptions& options) {
     const auto field = still_field(map, options.threads);
@@ -63,7 +33,7 @@ Result<std::vector<std::byte>> encode_netcdf(const StillMap& map, const StillOpt
                                      .states = states,
                                      .flags = std::move(flags),
                                      .state_attributes = map_state_attributes(map.scene),
-                                     .file_attributes = file_attributes(map, options)});
+                                     .file_attributes = map_file_attributes(map, options)});
 }
 
 }  // namespace stormcellar::render

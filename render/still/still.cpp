@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 2> jpeg_endings{".jpg", ".jpeg"};
 constexpr std::array<std::string_view, 1> webp_endings{".webp"};
 constexpr std::array<std::string_view, 2> tiff_endings{".tif", ".tiff"};
 constexpr std::array<std::string_view, 2> netcdf_endings{".nc", ".nc4"};
+constexpr std::array<std::string_view, 2> grib_endings{".grib2", ".grb2"};
 constexpr std::array<std::string_view, 1> kmz_endings{".kmz"};
 
 constexpr std::array formats{
@@ -27,6 +28,7 @@ constexpr std::array formats{
     StillFormat{"WebP", webp_endings, "image/webp", encode_webp, nullptr},
     StillFormat{"GeoTIFF", tiff_endings, "image/tiff", nullptr, encode_geotiff},
     StillFormat{"netCDF", netcdf_endings, "application/x-netcdf", nullptr, encode_netcdf},
+    StillFormat{"GRIB2", grib_endings, "application/wmo-grib2", nullptr, encode_grib},
     StillFormat{"KMZ", kmz_endings, "application/vnd.google-earth.kmz", nullptr, encode_kmz},
 };
 

@@ -15,6 +15,8 @@ namespace stormcellar::render {
                                                             const StillOptions& options);
 [[nodiscard]] Result<std::vector<std::byte>> encode_netcdf(const StillMap& map,
                                                            const StillOptions& options);
+[[nodiscard]] Result<std::vector<std::byte>> encode_grib(const StillMap& map,
+                                                         const StillOptions& options);
 [[nodiscard]] Result<std::vector<std::byte>> encode_kmz(const StillMap& map,
                                                         const StillOptions& options);
 

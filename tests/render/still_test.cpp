@@ -63,7 +63,7 @@ TEST(Still, TheEndingOfTheNameIsTheFormat) {
     EXPECT_EQ(still_format_of("png"), nullptr);
     EXPECT_EQ(known_still_formats(),
               "PNG (.png), JPEG (.jpg, .jpeg), WebP (.webp), GeoTIFF (.tif, .tiff), netCDF (.nc, "
-              ".nc4) or KMZ (.kmz)");
+              ".nc4), GRIB2 (.grib2, .grb2) or KMZ (.kmz)");
     for (const StillFormat& format : still_formats())
         EXPECT_NE(format.encode_picture == nullptr, format.encode_map == nullptr) << format.name;
 }

@@ -8,6 +8,8 @@
 // Formats of maps take a 2D product of a grid, without the map and the labels around it:
 //   GeoTIFF  the values of the cells in the grid's own projection: a cloud-optimized file for GIS
 //   netCDF   the values and states of the cells, in the same projection, as CF-1.8
+//   GRIB2    the values of products for which WMO has a number, and their states, on grids in
+//            latitude and longitude or Lambert's projection (export/grib_map.h)
 //   KMZ      the map's colors over latitude and longitude, with a legend, for Google Earth
 // Each format has one row in a registry. A writer of stills chooses the format by the name of the
 // file; help and messages list the registry.
@@ -72,7 +74,8 @@ struct StillFormat {
     Result<std::vector<std::byte>> (*encode_picture)(const Image& picture,
                                                      const StillOptions& options) = nullptr;
     // Errors: bad_argument for a product that is no map, and those of check_frame(); unsupported
-    // for a grid that the format cannot place.
+    // for a grid that the format cannot place, a product that it cannot name, and a build without
+    // the format's library.
     Result<std::vector<std::byte>> (*encode_map)(const StillMap& map,
                                                  const StillOptions& options) = nullptr;
 };
