@@ -1,6 +1,5 @@
 #include "export/uf_record.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -8,10 +7,9 @@
 namespace stormcellar::netcdf {
 
 void UfRecord::add(double number) {
-    using Limits = std::numeric_limits<std::int16_t>;
-    if (!std::isfinite(number)) return add_missing(1);
-    const double fitting = std::clamp<double>(std::round(number), uf_missing + 1, Limits::max());
-    words_.push_back(static_cast<std::int16_t>(fitting));
+    const double word = std::round(number);
+    if (!(std::abs(word) <= std::numeric_limits<std::int16_t>::max())) return add_missing(1);
+    words_.push_back(static_cast<std::int16_t>(word));
 }
 
 void UfRecord::add(std::optional<double> number) {

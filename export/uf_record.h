@@ -22,7 +22,7 @@ class UfRecord {
     [[nodiscard]] std::size_t next() const { return words_.size() + 1; }
     void clear() { words_.clear(); }
 
-    // Adds a number, rounded; the nearest word if it is too large, uf_missing if it is not finite.
+    // Adds a number, rounded; uf_missing if it is not finite or too large.
     void add(double number);
     void add(std::optional<double> number);
     void add_missing(std::size_t count) { words_.insert(words_.end(), count, uf_missing); }

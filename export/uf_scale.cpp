@@ -72,7 +72,8 @@ Result<int> uf_factor(std::span<const level2::Sweep> sweeps, level2::Moment name
     if (moments.empty()) return 1;
     const double largest = largest_value(sweeps, moments);
     if (largest > largest_word) {
-        return fail(ErrorCode::unsupported, "{} has values to {:.3g}, which UF cannot hold in 16 bits",
+        return fail(ErrorCode::unsupported,
+                    "{} has values to {:.3g}, which UF cannot hold in 16 bits",
                     level2::moment_name(name), largest);
     }
     const auto fits = [&](int factor) { return largest * factor <= largest_word; };
