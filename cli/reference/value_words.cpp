@@ -172,6 +172,7 @@ constexpr auto value_word_rows = std::to_array<ValueWord>({
     {"--output", "DIRECTORY", Kept::directories, nullptr, "synth"},
     {"--output", "DIRECTORY", Kept::directories, nullptr, "catalog get"},
     {"--to", "FORMAT", Kept::nowhere, nullptr, "cells"},
+    {"--format", "FORMAT"},
     {"--to", "FILE", Kept::files, nullptr, "info"},
     {"--plot", "FILE", Kept::files},
     {"--scene", "FILE", Kept::files},

@@ -145,6 +145,32 @@ TEST_F(InfoTest, WritesTheVolumeAndStillPrintsItsFacts) {
     EXPECT_EQ(*read_file(to), first) << "the file was replaced by the same bytes";
 }
 
+TEST_F(InfoTest, TheEndingOrTheOptionChoosesTheFormat) {
+    STORMCELLAR_NEED_DATA();
+    const auto file = testing::real_file("volumes/KIWX20160429_194300_V06.gz");
+    const auto written_as = [&](const std::string& name, std::vector<std::string> options) {
+        const std::string to = directory_ / name;
+        options.insert(options.begin(), {file, "--to", to});
+        const ProgramResult ran = info(options);
+        EXPECT_EQ(ran.status, 0) << ran.err;
+        return ran.out.substr(ran.out.find(": written as ") + 13);
+    };
+    EXPECT_EQ(written_as("x.h5", {}), "ODIM_H5\n");
+    EXPECT_EQ(written_as("x.uf", {}), "UF\n");
+    EXPECT_EQ(written_as("x.nc", {"--format", "cfradial2"}), "CfRadial 2\n");
+    const auto refused = [&](const std::vector<std::string>& arguments, std::string_view why) {
+        const ProgramResult ran = info(arguments);
+        EXPECT_EQ(ran.status, 2);
+        EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+    };
+    refused({file, "--to", directory_ / "x.grib"},
+            "must end in .nc or .nc4 or .h5 or .hdf or .hdf5 or .uf");
+    refused({file, "--to", directory_ / "x.nc", "--format", "odim"},
+            "the format is ODIM_H5: the name must end in .h5");
+    refused({file, "--to", directory_ / "x.nc", "--format", "grib"}, "--format");
+    refused({file, "--format", "odim"}, "--to");
+}
+
 TEST_F(InfoTest, WritesTheDealiasedVelocityIfAsked) {
     STORMCELLAR_NEED_DATA();
     const auto file = testing::real_file("volumes/KTLX19990503_235621.gz");

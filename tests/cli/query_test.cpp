@@ -104,6 +104,8 @@ TEST_F(QueryTest, GetJoinsTheChunksOfAVolume) {
     auto decode = get;
     decode.emplace_back("--decode");
     EXPECT_EQ(run(decode).out, out + "/KLOT20260328_201457.nc\n");
+    decode.insert(decode.end(), {"--format", "odim"});
+    EXPECT_EQ(run(decode).out, out + "/KLOT20260328_201457.h5\n");
     // If a chunk has gone meanwhile, the remaining chunks are copied, with a note.
     fs::remove(drop / "20260328-201457-007-I");
     auto forced = get;
