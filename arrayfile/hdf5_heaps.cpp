@@ -7,7 +7,7 @@ namespace stormcellar::arrayfile {
 namespace {
 
 constexpr std::size_t most_records = 100'000;
-constexpr std::size_t most_levels = 8;
+constexpr std::size_t most_record_levels = 8;
 
 // Returns the bytes that a number up to `limit` takes.
 std::size_t width_of(std::uint64_t limit) {
@@ -15,9 +15,9 @@ std::size_t width_of(std::uint64_t limit) {
 }
 
 // Reads a B-tree of version 2 from the root down.
-class TreeReader {
+class RecordReader {
   public:
-    explicit TreeReader(const Hdf5Bytes& file) : file_(file) {}
+    explicit RecordReader(const Hdf5Bytes& file) : file_(file) {}
 
     Result<std::vector<std::span<const std::byte>>> read(std::uint64_t address) {
         Cursor head = file_.at(address);
@@ -29,7 +29,7 @@ class TreeReader {
         head.skip(2);
         const std::uint64_t root = file_.address(head);
         const std::size_t count = head.u16();
-        if (head.failed() || record_bytes_ == 0 || node_bytes_ < 64 || depth > most_levels)
+        if (head.failed() || record_bytes_ == 0 || node_bytes_ < 64 || depth > most_record_levels)
             return damaged("a B-tree");
         size_levels(depth);
         if (count > 0 && !take(root, count, depth)) return damaged("a B-tree");
@@ -236,7 +236,7 @@ std::optional<std::span<const std::byte>> FractalHeap::managed(std::uint64_t off
 
 Result<std::vector<std::span<const std::byte>>> tree_records(const Hdf5Bytes& file,
                                                              std::uint64_t address) {
-    return TreeReader{file}.read(address);
+    return RecordReader{file}.read(address);
 }
 
 }  // namespace stormcellar::arrayfile
