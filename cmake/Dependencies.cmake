@@ -50,6 +50,11 @@ if(STORMCELLAR_GRIB)
   # eccodes.pc of Debian 12 names a directory that does not exist. Its headers are in the usual one.
   set_target_properties(PkgConfig::eccodes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 endif()
+if(STORMCELLAR_VDB)
+  # Debian's package has neither a CMake package nor a file for pkg-config.
+  stormcellar_package(openvdb find_library STORMCELLAR_OPENVDB openvdb REQUIRED)
+  stormcellar_package(tbb find_library STORMCELLAR_TBB tbb REQUIRED)
+endif()
 if(STORMCELLAR_VIDEO)
   stormcellar_package(PkgConfig::ffmpeg pkg_check_modules ffmpeg REQUIRED IMPORTED_TARGET
     libavformat libavcodec libavutil libswscale)

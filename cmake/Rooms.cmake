@@ -69,7 +69,8 @@ if(STORMCELLAR_PRECOMPILE)
   list(APPEND STORMCELLAR_TEST_BUILD -O0)
 endif()
 
-# Makes a build of the program also build the modules that the program may load: fetching, videos and GRIB2.
+# Makes a build of the program also build the modules that the program may load: fetching, videos, GRIB2
+# and OpenVDB.
 function(stormcellar_with_modules program)
   add_dependencies(${program} stormcellar_fetch_module)
   if(STORMCELLAR_VIDEO)
@@ -77,6 +78,9 @@ function(stormcellar_with_modules program)
   endif()
   if(STORMCELLAR_GRIB)
     add_dependencies(${program} stormcellar_grib)
+  endif()
+  if(STORMCELLAR_VDB)
+    add_dependencies(${program} stormcellar_vdb)
   endif()
 endfunction()
 

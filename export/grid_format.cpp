@@ -4,6 +4,7 @@
 
 #include "base/format_list.h"
 #include "export/grid_gltf.h"
+#include "export/grid_vdb.h"
 #include "export/grid_zarr.h"
 #include "stormcellar/export/grid_netcdf.h"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 2> netcdf_endings{".nc", ".nc4"};
 constexpr std::array<std::string_view, 1> zarr2_endings{".zarr"};
 constexpr std::array<std::string_view, 1> zarr3_endings{".zarr3"};
+constexpr std::array<std::string_view, 1> vdb_endings{".vdb"};
 constexpr std::array<std::string_view, 1> gltf_endings{".glb"};
 
 Status write_netcdf(FileSystem& file_system, const std::filesystem::path& path,
@@ -34,6 +36,7 @@ constexpr std::array formats{
     GridFormat{"netCDF", netcdf_endings, write_netcdf},
     GridFormat{"Zarr 2", zarr2_endings, write_zarr2, zarr::check_store},
     GridFormat{"Zarr 3", zarr3_endings, write_zarr3, zarr::check_store},
+    GridFormat{"OpenVDB", vdb_endings, vdb::write_vdb},
     GridFormat{"glTF surfaces", gltf_endings, surfaces::write_gltf, nullptr, true},
 };
 

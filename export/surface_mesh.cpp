@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "stormcellar/level2/moment.h"
+
 namespace stormcellar::surfaces {
 namespace {
 
@@ -239,7 +241,7 @@ class SurfaceNet {
 }  // namespace
 
 bool encloses_below(level2::Moment moment, double value) {
-    return value < 0 && moment != level2::Moment::ref;
+    return value < 0 && level2::facts_of(moment).is_signed;
 }
 
 SurfaceMesh surface_of(const grid::Grid& grid, double value, double height_scale) {

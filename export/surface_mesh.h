@@ -36,8 +36,7 @@ struct SurfaceMesh {
 };
 
 // Returns true if a surface encloses the values below `value` instead of those above it. This is so
-// for negative values of all moments but reflectivity: a surface of -30 m/s encloses strong wind
-// toward the radar.
+// for negative values of moments like velocity: -30 m/s encloses strong wind toward the radar.
 [[nodiscard]] bool encloses_below(level2::Moment moment, double value);
 
 // Heights are multiplied by `height_scale`.

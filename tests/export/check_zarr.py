@@ -55,8 +55,8 @@ def main(program, volume):
         directory = pathlib.Path(directory)
         for name in ("grid.nc", "grid.zarr", "grid.zarr3"):
             subprocess.run(
-                [program, "grid", volume, "-o", directory / name, "--moment", "REF,VEL", "--error", "2", "--extent-km",
-                 "300,200", "--fields", "age"], check=True, stdout=subprocess.DEVNULL)
+                [program, "grid", volume, "-o", directory / name, "--moment", "REF,VEL", "--tolerance", "250 m",
+                 "--extent-km", "300,200", "--fields", "age"], check=True, stdout=subprocess.DEVNULL)
         compare(directory / "grid.zarr", directory / "grid.nc")
         if has_version_3:
             compare(directory / "grid.zarr3", directory / "grid.nc")
