@@ -2,8 +2,9 @@
 // internal.
 //
 // Each moment is a FloatGrid with the moment's name, such as "REF". A voxel is active if the cell
-// has a value. All other voxels have the background: -33 dBZ for reflectivity, else 0. An Int32Grid
-// beside it, "REF_status", has the states of cells; its background is 0, not seen.
+// has a value. All other voxels have the background: -33 dBZ for reflectivity, else 0. A FloatGrid
+// beside it, "REF_status", has the states of cells; its background is 0, not seen. (States are
+// floats because OpenVDB's Python module reads no integers.)
 //
 // The transform gives meters: x east and y north of the grid's center, z up from mean sea level. A
 // grid in degrees becomes a plane with the size that its cells have at its center. Both grids have
@@ -11,7 +12,7 @@
 // units, the time, the place of the center and the projection.
 //
 // OpenVDB is in the module stormcellar_vdb.so, which is loaded when the first file is written. The
-// file is made in memory. Voxels and file need 9 to 12 bytes a cell at most; a storm needs far
+// file is made in memory. Voxels and file need at most twice the memory of the grid, a storm far
 // less.
 //
 // Units     Meters and the moment's unit.

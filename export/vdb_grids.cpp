@@ -1,4 +1,5 @@
 // The module stormcellar_vdb.so: makes an OpenVDB file of grids (export/grid_vdb.h).
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <new>
@@ -23,6 +24,8 @@ namespace stormcellar::vdb {
 namespace {
 
 using grid::CellStatus;
+
+constexpr int leaf_side = openvdb::FloatTree::LeafNodeType::DIM;
 
 // Writes a file with the offsets of its grids, so that readers can take one grid of it.
 class SeekableArchive : public openvdb::io::Archive {
@@ -78,19 +81,37 @@ void describe(openvdb::GridBase& to, std::string_view name, const grid::Grid& gr
     add_attributes(attributes, to);
 }
 
-// Calls cell(coordinates, index) for each cell.
+// A box of cells, in columns, rows and levels.
+struct Block {
+    int x, y, z, end_x, end_y, end_z;
+};
+Block all_cells(const grid::GridSpec& spec) {
+    return {0, 0, 0, spec.nx, spec.ny, spec.nz()};
+}
+
+// Calls cell(coordinates, index) for each cell of a block.
 template <class Cell>
-void for_each_cell(const grid::GridSpec& spec, const Cell& cell) {
-    for (int iy = 0; iy < spec.ny; ++iy)
-        for (int ix = 0; ix < spec.nx; ++ix)
-            for (int iz = 0; iz < spec.nz(); ++iz)
+void for_each_cell(const grid::GridSpec& spec, const Block& block, const Cell& cell) {
+    for (int iy = block.y; iy < block.end_y; ++iy)
+        for (int ix = block.x; ix < block.end_x; ++ix)
+            for (int iz = block.z; iz < block.end_z; ++iz)
                 cell(openvdb::Coord(ix, iy, iz), spec.index(ix, iy, iz));
+}
+
+// Calls take(block) for the part of each leaf of OpenVDB's tree that is in the grid.
+template <class Take>
+void for_each_leaf(const grid::GridSpec& spec, const Take& take) {
+    for (int y = 0; y < spec.ny; y += leaf_side)
+        for (int x = 0; x < spec.nx; x += leaf_side)
+            for (int z = 0; z < spec.nz(); z += leaf_side)
+                take(Block{x, y, z, std::min(x + leaf_side, spec.nx),
+                           std::min(y + leaf_side, spec.ny), std::min(z + leaf_side, spec.nz())});
 }
 
 openvdb::GridBase::Ptr values_of(const grid::Grid& grid) {
     auto made = openvdb::FloatGrid::create(background_of(grid.moment));
     openvdb::FloatGrid::Accessor voxels = made->getAccessor();
-    for_each_cell(grid.spec, [&](const openvdb::Coord& at, std::size_t cell) {
+    for_each_cell(grid.spec, all_cells(grid.spec), [&](const openvdb::Coord& at, std::size_t cell) {
         if (grid.status[cell] == CellStatus::value) voxels.setValue(at, grid.values[cell]);
     });
     describe(*made, level2::moment_name(grid.moment), grid);
@@ -98,11 +119,27 @@ openvdb::GridBase::Ptr values_of(const grid::Grid& grid) {
 }
 
 openvdb::GridBase::Ptr states_of(const grid::Grid& grid) {
-    auto made = openvdb::Int32Grid::create(static_cast<int>(CellStatus::not_seen));
-    openvdb::Int32Grid::Accessor voxels = made->getAccessor();
-    for_each_cell(grid.spec, [&](const openvdb::Coord& at, std::size_t cell) {
-        if (grid.status[cell] != CellStatus::not_seen)
-            voxels.setValue(at, static_cast<int>(grid.status[cell]));
+    auto made = openvdb::FloatGrid::create(static_cast<float>(CellStatus::not_seen));
+    openvdb::FloatGrid::Accessor voxels = made->getAccessor();
+    // A leaf whose cells all have one state becomes a tile at once, because leaves of all states
+    // would need as much memory as the values.
+    for_each_leaf(grid.spec, [&](const Block& leaf) {
+        const CellStatus first = grid.status[grid.spec.index(leaf.x, leaf.y, leaf.z)];
+        std::size_t equal = 0;
+        for_each_cell(grid.spec, leaf, [&](const openvdb::Coord&, std::size_t cell) {
+            equal += grid.status[cell] == first ? 1 : 0;
+        });
+        if (equal == std::size_t{leaf_side} * leaf_side * leaf_side) {
+            constexpr int level_of_leaves = 1;
+            if (first != CellStatus::not_seen)
+                voxels.addTile(level_of_leaves, openvdb::Coord(leaf.x, leaf.y, leaf.z),
+                               static_cast<float>(first), true);
+            return;
+        }
+        for_each_cell(grid.spec, leaf, [&](const openvdb::Coord& at, std::size_t cell) {
+            if (grid.status[cell] != CellStatus::not_seen)
+                voxels.setValue(at, static_cast<float>(grid.status[cell]));
+        });
     });
     openvdb::tools::prune(made->tree());
     describe(*made, fmt::format("{}_status", level2::moment_name(grid.moment)), grid);

@@ -14,7 +14,7 @@ import pyopenvdb
 
 def dense(grid, shape):
     """Returns the values and which voxels are active, with the dimensions z, y, x."""
-    values = np.full(shape[::-1], grid.background, np.float32 if isinstance(grid, pyopenvdb.FloatGrid) else np.int32)
+    values = np.full(shape[::-1], grid.background, np.float32)
     grid.copyToArray(values)
     active = np.zeros(shape[::-1], np.float32)
     mask = pyopenvdb.FloatGrid(0)
