@@ -112,7 +112,9 @@ Result<Elements> read_array(std::span<const std::byte> bytes, const Array& array
                             std::uint64_t most_bytes) {
     const auto count = array.count();
     if (array.type.size == 0)
-        return fail(ErrorCode::unsupported, "the array {} has elements of an unknown type",
+        return fail(ErrorCode::unsupported,
+                    "the array {} is stored in a form of HDF5 that is not read; h5repack --low=0 "
+                    "--high=1 rewrites the file",
                     array.name);
     if (!count || *count > most_bytes / array.type.size)
         return fail(ErrorCode::unsupported, "the array {} takes more than {} bytes", array.name,

@@ -70,7 +70,7 @@ Result<std::vector<UtcTime>> CfradialValues::times(const Group& group) const {
     std::string text = units.substr(found + since.size());
     if (const std::size_t zone = text.find(" UTC"); zone != std::string::npos) text.resize(zone);
     const auto start = parse_utc(text, UtcTime{});
-    if (!start) return pass_on(start);
+    if (!start) return fail(ErrorCode::corrupt, "the times of rays: {}", start.error().message);
     std::vector<UtcTime> times;
     constexpr double longest_s = 1e10;
     for (const double seconds : numbers(*array)) {

@@ -78,13 +78,10 @@ class GateReader {
             }
         }
         for (const Array* array : order) {
-            if (Status taken = take(uses[array]); !taken) {
-                if (taken.error().code == ErrorCode::unsupported) return taken;
-                problems_.push_back(taken.error().message);
-            }
+            if (Status taken = take(uses[array]); !taken) problems_.push_back(taken.error());
         }
         if (!order.empty() && problems_.size() == order.size())
-            return fail(ErrorCode::corrupt, "{}", problems_.front());
+            return tl::unexpected<Error>(problems_.front());
         note(report);
         return {};
     }
@@ -154,9 +151,9 @@ class GateReader {
             add(report, Severity::warning, "beyond",
                 fmt::format("{} values are too large or small, and count as not measured",
                             beyond_));
-        for (const std::string& problem : problems_) {
+        for (const Error& problem : problems_) {
             if (report.problems.size() == DecodeReport::max_problems) break;
-            add(report, Severity::error, "array", printable(problem));
+            add(report, Severity::error, "array", printable(problem.message));
         }
     }
 
@@ -165,7 +162,7 @@ class GateReader {
     const Selection& selection_;
     std::uint64_t most_bytes_;
     std::uint64_t taken_ = 0, gaps_ = 0, beyond_ = 0;
-    std::vector<std::string> problems_;
+    std::vector<Error> problems_;
 };
 
 }  // namespace

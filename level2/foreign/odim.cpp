@@ -17,7 +17,6 @@ using arrayfile::Attributes;
 using arrayfile::Group;
 
 constexpr std::size_t most_rays = 20'000;
-constexpr double meters_in_km = 1000;
 
 // The groups in which an attribute may be: those of a data set come before those of the file.
 struct Place {
@@ -198,6 +197,15 @@ struct NamedSource {
     MomentSource source;
 };
 
+// Returns the meters in the unit of where/rstart: kilometers before version 2.4, then meters.
+double meters_of_start(const Group& root) {
+    const std::string conventions = root.attributes.text("Conventions").value_or("");
+    const std::size_t at = conventions.find("V2_");
+    const bool is_new = at != std::string::npos && at + 3 < conventions.size() &&
+                        conventions[at + 3] >= '4' && conventions[at + 3] <= '9';
+    return is_new ? 1 : 1000;
+}
+
 // Reads where the gates of one quantity are. Returns none if `data` holds none.
 std::optional<NamedSource> source_of(const Group& data, const Place& place, PolarFile& file) {
     const Array* array = data.array("data");
@@ -218,7 +226,8 @@ std::optional<NamedSource> source_of(const Group& data, const Place& place, Pola
     source.below = marks_of(place, "undetect");
     source.gate_spacing_m = place.number("where", "rscale").value_or(0);
     source.first_gate_m =
-        place.number("where", "rstart").value_or(0) * meters_in_km + source.gate_spacing_m / 2;
+        place.number("where", "rstart").value_or(0) * meters_of_start(*place.groups.back()) +
+        source.gate_spacing_m / 2;
     return made;
 }
 
@@ -256,18 +265,23 @@ std::optional<PolarSweep> sweep_of(const Group& root, const Group& dataset, Pola
     const auto elevations_deg = elevations_of(place, count, *elevation_deg);
     const auto times = times_of(place, count);
     const double nyquist_mps = nyquist_of(place);
+    // This program's files have the velocities of all rays where they differ.
+    auto nyquists_mps = place.numbers("how", "nyquist_velocities");
+    if (nyquists_mps.size() != count) nyquists_mps.assign(count, nyquist_mps);
     // Rays are in the order of azimuth; radials are in the order of time.
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t ray) { return times[ray]; });
     PolarSweep made;
     made.sweep.vcp_elevation_deg = static_cast<float>(*elevation_deg);
+    const double cut = place.number("how", "elevation_number").value_or(0);
+    if (cut >= 1 && cut <= 255) made.sweep.elevation_number = static_cast<int>(cut);
     for (const std::size_t ray : order) {
         Radial& radial = made.sweep.radials.emplace_back();
         radial.time = times[ray];
         radial.azimuth_deg = static_cast<float>(azimuths_deg[ray]);
         radial.elevation_deg = static_cast<float>(elevations_deg[ray]);
-        radial.nyquist_mps = static_cast<float>(nyquist_mps);
+        radial.nyquist_mps = static_cast<float>(nyquists_mps[ray]);
     }
     for (NamedSource& one : sources) {
         if (one.source.array->shape != first.shape) {
@@ -280,6 +294,29 @@ std::optional<PolarSweep> sweep_of(const Group& root, const Group& dataset, Pola
         made.sources.push_back(std::move(one.source));
     }
     return made;
+}
+
+// Returns true if both have the same radials. Moments whose gates differ are in several data sets.
+bool is_one_sweep(const PolarSweep& a, const PolarSweep& b) {
+    const auto is_same = [](const Radial& one, const Radial& other) {
+        return one.time == other.time && one.azimuth_deg == other.azimuth_deg &&
+               one.elevation_deg == other.elevation_deg;
+    };
+    const bool shares_moments = std::ranges::any_of(b.sources, [&](const MomentSource& source) {
+        return std::ranges::find(a.sources, source.moment, &MomentSource::moment) !=
+               a.sources.end();
+    });
+    return !shares_moments && a.sweep.elevation_number == b.sweep.elevation_number &&
+           std::ranges::equal(a.sweep.radials, b.sweep.radials, is_same);
+}
+
+void add_sweep(PolarFile& file, PolarSweep sweep) {
+    if (file.sweeps.empty() || !is_one_sweep(file.sweeps.back(), sweep)) {
+        file.sweeps.push_back(std::move(sweep));
+        return;
+    }
+    for (MomentSource& source : sweep.sources)
+        file.sweeps.back().sources.push_back(std::move(source));
 }
 
 std::string kind_of_object(std::string_view object) {
@@ -313,6 +350,7 @@ Result<PolarFile> read_odim(const Group& root) {
     PolarFile file;
     file.format = root.attributes.text("Conventions").value_or("ODIM_H5");
     file.source = place.text("what", "source").value_or("");
+    file.is_partial = place.text("how", "volume") == "partial";
     const auto latitude_deg = place.number("where", "lat"),
                longitude_deg = place.number("where", "lon");
     if (latitude_deg && longitude_deg) {
@@ -326,7 +364,7 @@ Result<PolarFile> read_odim(const Group& root) {
     for (const Group* dataset : numbered(root, "dataset")) {
         auto sweep = sweep_of(root, *dataset, file);
         if (sweep)
-            file.sweeps.push_back(std::move(*sweep));
+            add_sweep(file, std::move(*sweep));
         else
             file.left_out.push_back(dataset->name);
     }

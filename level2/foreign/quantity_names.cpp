@@ -64,6 +64,8 @@ constexpr auto names = std::to_array<Name>({
     {"CROSS_CORRELATION_RATIO", {Moment::rho, 1}},
     {"RHOHV_F", {Moment::rho, 1}},
     {"URHOHV", {Moment::rho, 2}},
+    {"CCORH", {Moment::cfp, 0}},
+    {"CFP", {Moment::cfp, 0}},
 });
 
 constexpr std::size_t station_letters = 4;
