@@ -121,6 +121,8 @@ TEST_F(HostileClients, NoIdThatDoesNotExistIsAnswered) {
                                              "/zarr/KBGM/{}/.zmetadata",
                                              "/zarr/KBGM/REF/REF/{}",
                                              "/zarr3/{}/zarr.json",
+                                             "/zarr3/volumes/{}/zarr.json",
+                                             "/zarr3/volumes/KTLX/{}/zarr.json",
                                              "/frames/{}.png",
                                              "/tiles/{}/composite/latest/0/0/0.png",
                                              "/tiles/KBGM/{}/latest/0/0/0.png",

@@ -364,7 +364,7 @@ TEST_F(ZarrTest, NumbersThatCannotBeKeptAreNotGiven) {
     EXPECT_EQ(answer.status, 503u);
     EXPECT_EQ(body_of(answer).find(state_.path().native()), std::string::npos);
     EXPECT_TRUE(sources_.numbers->problem());
-    EXPECT_FALSE(sources_.numbers->time_of("KBGM", level2::Moment::ref, 0));
+    EXPECT_FALSE(sources_.numbers->time_of("KBGM", "REF", 0));
 }
 
 // 2026-11-28: if the disk was full or read-only, requests for times that already had numbers
@@ -375,15 +375,15 @@ TEST_F(ZarrTest, NumbersThatWereGivenAreAnsweredWhileNewOnesCannotBeKept) {
                                       UtcTime{std::chrono::seconds{2}}};
     std::vector<UtcTime> three = two;
     three.push_back(UtcTime{std::chrono::seconds{3}});
-    ASSERT_TRUE(numbers.update("KBGM", level2::Moment::ref, two));
+    ASSERT_TRUE(numbers.update("KBGM", "REF", two));
     std::filesystem::remove_all(state_ / "KBGM");
     std::ofstream(state_ / "KBGM") << "not a directory";
-    auto times = numbers.update("KBGM", level2::Moment::ref, three);
+    auto times = numbers.update("KBGM", "REF", three);
     ASSERT_TRUE(times);
     EXPECT_EQ(**times, two);
     EXPECT_TRUE(numbers.problem());
     std::filesystem::remove(state_ / "KBGM");
-    times = numbers.update("KBGM", level2::Moment::ref, three);
+    times = numbers.update("KBGM", "REF", three);
     ASSERT_TRUE(times);
     EXPECT_EQ(**times, three);
     EXPECT_FALSE(numbers.problem());

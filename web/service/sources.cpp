@@ -24,6 +24,7 @@
 #include "web/doors/viewer/viewer.h"
 #include "web/doors/viewer/viewer_files.h"
 #include "web/doors/wms/wms.h"
+#include "web/doors/zarr/station_door.h"
 #include "web/doors/zarr/zarr.h"
 
 namespace stormcellar::web {
@@ -73,10 +74,18 @@ void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures
 }
 
 void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept,
-              const std::shared_ptr<MapPictures>& maps) {
+              const std::shared_ptr<MapPictures>& maps,
+              const std::shared_ptr<WorkQueue>& long_workers) {
     const ZarrSources shared{sources.grids, kept, sources.numbers, maps};
     doors.add("/zarr", std::make_shared<ZarrDoor>(shared, ZarrVersion::two));
-    doors.add("/zarr3", std::make_shared<ZarrDoor>(shared, ZarrVersion::three));
+    const auto three = std::make_shared<ZarrDoor>(shared, ZarrVersion::three);
+    doors.add("/zarr3", three);
+    if (!sources.setup.web.serves(WebPart::volumes)) return;
+    const auto trees = std::make_shared<StationTrees>(StationTreesOptions{
+        .catalog = sources.setup.catalog, .reader = sources.catalog, .numbers = sources.numbers});
+    const auto volumes = std::make_shared<StationDoor>(trees, kept, three);
+    volumes->set_long_workers(long_workers);
+    doors.add("/zarr3/volumes", volumes);
 }
 
 // Number of databases of the catalog that are open at the same time, each with three descriptors.
@@ -158,7 +167,11 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const auto scans = std::make_shared<StormScans>(sources.grids, setup.web.freezing);
     const Watched watched = watch_over(sources, scans);
     const Pictures pictures = pictures_of(sources);
-    if (setup.web.serves(WebPart::zarr)) add_zarr(*doors, sources, kept, pictures.maps);
+    // These compute grids and decode volumes.
+    const auto long_workers = std::make_shared<WorkQueue>(static_cast<unsigned>(limits.renders),
+                                                          static_cast<std::size_t>(limits.waiting));
+    if (setup.web.serves(WebPart::zarr))
+        add_zarr(*doors, sources, kept, pictures.maps, long_workers);
     if (setup.web.serves(WebPart::grids)) {
         const auto storms = std::make_shared<const StormAnswers>(scans, kept);
         const auto api = std::make_shared<ApiDoor>(
@@ -169,8 +182,6 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
                        .feed = watched.feed,
                        .gives_volumes = setup.web.serves(WebPart::volumes),
                        .storms = storms});
-        const auto long_workers = std::make_shared<WorkQueue>(
-            static_cast<unsigned>(limits.renders), static_cast<std::size_t>(limits.waiting));
         api->set_long_workers(long_workers);
         const auto placefiles = std::make_shared<PlacefilesDoor>(storms);
         placefiles->set_long_workers(long_workers);

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "base/checksum.h"
 #include "stormcellar/base/file_system.h"
 
@@ -51,7 +49,7 @@ std::optional<std::vector<UtcTime>> times_in(std::span<const std::byte> bytes) {
 }  // namespace
 
 std::filesystem::path TimeNumbers::path_of(const Key& key) const {
-    return directory_ / key.first / fmt::format("{}.times", level2::moment_name(key.second));
+    return directory_ / key.first / (key.second + ".times");
 }
 
 Result<TimeNumbers::Series*> TimeNumbers::loaded(const Key& key) {
@@ -93,9 +91,9 @@ Status TimeNumbers::save(const Key& key, const std::vector<UtcTime>& times) cons
 }
 
 Result<std::shared_ptr<const std::vector<UtcTime>>> TimeNumbers::update(
-    std::string_view domain, level2::Moment moment, std::span<const UtcTime> present) {
+    std::string_view domain, std::string_view name, std::span<const UtcTime> present) {
     const MutexLock lock(mutex_);
-    const Key key{domain, moment};
+    const Key key{domain, name};
     const auto series = loaded(key);
     if (!series) return pass_on(series);
     std::vector<UtcTime> fresh;
@@ -132,10 +130,10 @@ void TimeNumbers::remove_leftovers() const {
     }
 }
 
-std::optional<UtcTime> TimeNumbers::time_of(std::string_view domain, level2::Moment moment,
+std::optional<UtcTime> TimeNumbers::time_of(std::string_view domain, std::string_view name,
                                             std::size_t number) const {
     const MutexLock lock(mutex_);
-    const auto found = series_.find(Key{domain, moment});
+    const auto found = series_.find(Key{domain, name});
     if (found == series_.end() || number >= found->second.times->size()) return std::nullopt;
     return (*found->second.times)[number];
 }

@@ -1,12 +1,12 @@
-// web/data/zarr/time_numbers.h -- gives numbers to the times of a domain's grids. The number is the
-// index of the time in the Zarr arrays.
+// web/data/zarr/time_numbers.h -- gives numbers to the times of a domain's grids or a
+// station's volumes. The number is the index of the time in the Zarr arrays.
 //
 // A time gets a number when it is first seen. Times that are seen together get numbers in ascending
 // order. A time keeps its number after its grid is evicted and after a restart, so that an index
 // that a client holds never means another time. So a grid that comes late has a higher number than
 // a newer grid.
 //
-// With a directory, DIRECTORY/DOMAIN/MOMENT.times holds the numbers: the 16 bytes "stormcellar
+// With a directory, DIRECTORY/DOMAIN/NAME.times holds the numbers: the 16 bytes "stormcellar
 // time", then the times in the order of their numbers (int64, little-endian, milliseconds since
 // 1970 UTC), then the XXH3-64 of all bytes before it. The file appears by rename. Each grid adds 8
 // bytes. Without a directory the numbers live as long as this object.
@@ -33,7 +33,6 @@
 #include "stormcellar/base/mutex.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/base/utc_time.h"
-#include "stormcellar/level2/volume.h"
 
 namespace stormcellar::web {
 
@@ -47,12 +46,13 @@ class TimeNumbers {
 
     // Gives numbers to those times of `present` (sorted) that have none. Returns the times of all
     // numbers, in the order of the numbers. While numbers cannot be kept, gives no new ones.
-    // `domain` must be the name of a domain of the cache.
+    // `domain` must be the name of a domain of the cache or of a station. `name` must be the name
+    // of a moment, or another name that a path may have, such as VCP-212.
     [[nodiscard]] Result<std::shared_ptr<const std::vector<UtcTime>>> update(
-        std::string_view domain, level2::Moment moment, std::span<const UtcTime> present);
+        std::string_view domain, std::string_view name, std::span<const UtcTime> present);
     // Returns the time that has a number. Returns none if no time has it, or before the first
-    // update() of this domain and moment. Takes microseconds.
-    [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, level2::Moment moment,
+    // update() of this domain and name. Takes microseconds.
+    [[nodiscard]] std::optional<UtcTime> time_of(std::string_view domain, std::string_view name,
                                                  std::size_t number) const;
     // Returns the reason why the last numbers could not be kept. Returns none if they were kept.
     [[nodiscard]] std::optional<std::string> problem() const;
@@ -64,7 +64,7 @@ class TimeNumbers {
         std::shared_ptr<const std::vector<UtcTime>> times;
         std::unordered_map<std::int64_t, std::size_t> numbers;  // by milliseconds
     };
-    using Key = std::pair<std::string, level2::Moment>;
+    using Key = std::pair<std::string, std::string>;  // domain, name
 
     [[nodiscard]] std::filesystem::path path_of(const Key& key) const;
     [[nodiscard]] Result<Series*> loaded(const Key& key) STORMCELLAR_REQUIRES(mutex_);

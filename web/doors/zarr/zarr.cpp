@@ -127,7 +127,7 @@ Result<ZarrDoor::Opened> ZarrDoor::open(const Named& named) const {
     if (present.empty())
         return fail(ErrorCode::not_found, "There are no grids of {} in the domain {}.",
                     level2::moment_name(named.moment), named.domain);
-    auto times = sources_.numbers->update(named.domain, named.moment, present);
+    auto times = sources_.numbers->update(named.domain, level2::moment_name(named.moment), present);
     if (!times) return pass_on(times);
     const UtcTime newest_time =
         sources_.grids->newest(named.domain, named.moment).value_or(present.back());
@@ -188,7 +188,8 @@ std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     const bool is_field = rest[0] == "status" || rest[0] == group->array();
     const auto place = place_in(rest, group->dimensions());
     if (!is_field || !place) return std::nullopt;
-    const auto time = sources_.numbers->time_of(group->domain, group->moment, (*place)[0]);
+    const auto time =
+        sources_.numbers->time_of(group->domain, level2::moment_name(group->moment), (*place)[0]);
     if (!time) return std::nullopt;
     const auto grid = sources_.grids->find_if_open(group->domain, group->moment, *time);
     if (!grid || !has_cells_of_newest(*group, *grid)) return std::nullopt;
