@@ -67,7 +67,7 @@ export default defineConfig({
   projects: [
     {
       name: 'storms',
-      testMatch: /(look|flat|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|access)\.spec\.mjs/,
+      testMatch: /(look|flat|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|stills|glance|cells|access)\.spec\.mjs/,
       grepInvert: /@sequence/,
       use: { volumes: storms },
     },
@@ -75,7 +75,7 @@ export default defineConfig({
     { name: 'dealiased', testMatch: 'dealiased.spec.mjs', use: { volumes: [hurricane] } },
     { name: 'wind', testMatch: 'wind.spec.mjs', use: { volumes: [supercells] } },
     { name: 'newcomer', testMatch: 'newcomer.spec.mjs', use: { volumes: [supercells] } },
-    { name: 'sequence', testMatch: /(time|overlays|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
+    { name: 'sequence', testMatch: /(time|tracks|stills|overlays|pictures|sweeps)\.spec\.mjs/, use: { volumes: sequence } },
     { name: 'region', testMatch: /(region|water)\.spec\.mjs/, use: { volumes: neighbors } },
     { name: 'firefox', testMatch: 'first_picture.spec.mjs', use: { volumes: storms, ...firefox } },
     {

@@ -7,6 +7,7 @@ import { Drawing } from './page/drawing';
 import { FactsOfShown } from './page/facts_of_shown';
 import { Fitting } from './page/fitting';
 import { Keys } from './page/keys';
+import { laterProgram } from './page/later_program';
 import { Live } from './page/live';
 import { Budget, Loader } from './page/loader';
 import { addChoices } from './page/panels/choices';
@@ -59,8 +60,14 @@ function begin(): void {
 try {
     begin();
 } catch (error) {
-    const isWithout = error instanceof Error && error.message === 'webgl2';
-    element('state').textContent = isWithout
-        ? texts.noWebgl
-        : texts.failed(error instanceof Error ? error.message : String(error));
+    const tell = (what: unknown) => {
+        element('state').textContent = texts.failed(what instanceof Error ? what.message : String(what));
+    };
+    // Without WebGL 2, show pictures that the server draws.
+    if (error instanceof Error && error.message === 'webgl2')
+        laterProgram<typeof import('./page/panels/later_panels')>('panels').then(
+            ({ showStills }) => showStills(),
+            tell,
+        );
+    else tell(error);
 }

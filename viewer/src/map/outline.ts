@@ -2,11 +2,12 @@
 
 import { Place, Plane, cellSizeM, destination, planeOf, projectionNamed } from '../earth/projection';
 import { GridFacts } from '../wire/api';
+import { GridPlace } from '../wire/packed_grid';
 
 const pointsOfASide = 16;
 const pointsOfACircle = 72;
 
-function geometryOf(facts: GridFacts): Parameters<typeof planeOf>[0] {
+export function placeOfFacts(facts: GridFacts): GridPlace {
     return {
         projection: projectionNamed(facts.projection),
         centerDeg: facts.center,
@@ -19,14 +20,14 @@ function geometryOf(facts: GridFacts): Parameters<typeof planeOf>[0] {
 }
 
 function halvesM(facts: GridFacts): [number, number] {
-    const [width, height] = cellSizeM(geometryOf(facts));
+    const [width, height] = cellSizeM(placeOfFacts(facts));
     return [(facts.nx * width) / 2, (facts.ny * height) / 2];
 }
 
 // Returns points along the border of a grid. Each side has several points, because a side is usually curved on another
 // map.
 export function outlineOf(facts: GridFacts): Place[] {
-    const plane = planeOf(geometryOf(facts));
+    const plane = planeOf(placeOfFacts(facts));
     const [x, y] = halvesM(facts);
     const corners: Plane[] = [
         [-x, -y],

@@ -14,19 +14,22 @@ export function stepOf(range: number): number {
     return ([1, 2, 5, 10].find((step) => step * power >= rough) ?? 10) * power;
 }
 
+export type BarEnds = readonly [high: string, low: string];
+
 export class ColorBar {
     private drawn: readonly unknown[] = [];
 
     constructor(private canvas: HTMLCanvasElement) {}
 
-    // Draws the bar, unless it is already drawn.
-    show(table: ColorTable, unit: ShownUnit, least: number | null): void {
+    // Draws the bar, unless it is already drawn. `ends` are words for the highest and the lowest values.
+    show(table: ColorTable, unit: ShownUnit, least: number | null, ends: BarEnds | null): void {
         const { clientWidth, clientHeight } = this.canvas;
         const wanted = [
             table,
             unit.symbol,
             unit.perStored,
             least,
+            ends,
             clientWidth,
             clientHeight,
             window.devicePixelRatio,
@@ -34,16 +37,22 @@ export class ColorBar {
         ];
         if (wanted.every((part, i) => part === this.drawn[i])) return;
         this.drawn = wanted;
-        drawBar(this.canvas, table, unit, least);
+        drawBar(this.canvas, table, unit, least, ends);
     }
 }
 
-function drawBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, least: number | null): void {
+function drawBar(
+    canvas: HTMLCanvasElement,
+    table: ColorTable,
+    unit: ShownUnit,
+    least: number | null,
+    ends: BarEnds | null,
+): void {
     const pen = penOf(canvas);
     const scale = textScale();
     const height = canvas.clientHeight / scale;
     const [low, high] = [table.bar_begin, table.end];
-    const [top, bottom] = [22, height - 8];
+    const [top, bottom] = ends ? [36, height - 24] : [22, height - 8];
     const yOf = (value: number) => bottom - ((value - low) / (high - low)) * (bottom - top);
     const row = 1 / scale;
     for (let y = top; y < bottom; y += row) {
@@ -57,6 +66,9 @@ function drawBar(canvas: HTMLCanvasElement, table: ColorTable, unit: ShownUnit, 
     pen.font = fontOf(12);
     pen.textBaseline = 'middle';
     haloed(pen, unit.symbol, 2, 10, shades.text);
+    pen.font = fontOf(11);
+    ends?.forEach((word, i) => haloed(pen, word, 0, i === 0 ? 26 : height - 9, shades.text));
+    pen.font = fontOf(12);
     // Marks are at round numbers of the shown unit.
     const [from, to] = [low * unit.perStored, high * unit.perStored];
     const step = stepOf(to - from);

@@ -11,6 +11,7 @@ import { Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
 import { Mark } from '../scene/ground_lines';
+import { isVelocity } from '../wire/moments';
 import { App, Shown } from './app';
 import { ColorBar } from './color_bar';
 import { element, pixelRatio, textScale } from './dom';
@@ -18,6 +19,7 @@ import { Ground } from './ground';
 import { drawHeightScale } from './height_scale';
 import { LayerMaker } from './layer_maker';
 import { Rect, clearLabels, drawLabels, placeLabels } from './labels';
+import { addSkeleton } from './skeleton';
 import { Streaming } from './streaming';
 import { texts } from './texts';
 import { Windows } from './windows';
@@ -28,6 +30,9 @@ const leastStillAfterMs = 180;
 const mostStillAfterMs = 1000;
 const leastBetweenMs = 150; // between pictures while bricks come
 const longestWishMs = 30_000;
+
+// Velocities of these moments are away from the radar at one end of the bar of colors, and toward it at the other.
+const endsOf = (moment: string) => (isVelocity(moment) ? texts.velocityEnds : null);
 
 // Draws over the picture in pixels of the page.
 export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
@@ -83,7 +88,8 @@ export class Drawing {
         readonly picture: HTMLCanvasElement,
     ) {
         renderer.prepare();
-        app.loader.onPlace = (domain, place) => this.ground.expect(domain, place);
+        app.loader.onPlace = (domain, place) => void this.ground.expect(domain, place);
+        addSkeleton(app, this.labels, this.pen, (domain, place) => this.ground.expect(domain, place));
         app.loader.besides = () => this.windows.bytes;
         app.alongside = (next, isAhead) => this.layers.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
         app.isShownWhole = () => !this.layers.isWaiting;
@@ -248,7 +254,7 @@ export class Drawing {
         this.governor.took(rung, ms);
         this.lastMs = ms;
         this.drawOver(geometry);
-        this.bar.show(table, shownUnit(table.unit, state.units), state.least);
+        this.bar.show(table, shownUnit(table.unit, state.units), state.least, endsOf(shown.moment));
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         for (const act of this.pictureChanged) act();
         if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);

@@ -77,9 +77,9 @@ export class Ground {
         this.shownKey = '';
     }
 
-    // Asks for the map of a grid while the grid is still decoded.
-    expect(domain: string, place: GridPlace): void {
-        if (domain === this.app.state.domain) void this.ask(domain, place);
+    // Asks for the map of a grid before the grid has come. Returns its lines; null if they cannot be loaded.
+    async expect(domain: string, place: GridPlace): Promise<MapLines[] | null> {
+        return domain === this.app.state.domain ? ((await this.ask(domain, place))?.lines ?? null) : null;
     }
 
     // Returns the map of a grid; null if it cannot be loaded. The page then shows the grid without a map.

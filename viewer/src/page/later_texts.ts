@@ -80,6 +80,33 @@ export const panelTexts = {
         several: 'Several radars are merged here. Choose one of them to see its cuts.',
         between: 'This frame is interpolated. It is no scan.',
     },
+    // The page for browsers without WebGL 2.
+    stills: {
+        without: 'This browser has no WebGL 2, so the server draws still pictures.',
+        kind: 'Kind of picture',
+        kinds: { volume: '3D', ppi: 'Lowest tilt', composite: 'Composite' },
+    },
+    // Tracks below the slider of times.
+    tracks: {
+        volumes: 'VCP',
+        cutsName: 'Cuts',
+        cuts: 'Cuts of the shown volume',
+        isUtc: 'Times are in UTC. Press for local time.',
+        isLocal: (zone: string) => `Times are local (${zone}). Press for UTC.`,
+        pattern: (number: string) => `VCP ${number}`,
+        volume: (time: string, vcp: number | null, cuts: number | null, isGrowing: boolean) =>
+            [
+                `Volume of ${time}`,
+                vcp === null ? '' : `scan pattern (VCP) ${vcp}`,
+                cuts === null ? '' : `${cuts} cuts${isGrowing ? ' until now' : ''}`,
+            ]
+                .filter(Boolean)
+                .join('\n'),
+        several: (count: number, from: string, to: string) => `${count} times, ${from} to ${to}`,
+        between: (time: string) => `${time}: interpolated, not observed`,
+        cut: (angle: string, number: number, of: number) => `${angle}, cut ${number} of ${of}`,
+        lacks: 'It lacks the shown moment.',
+    },
     tilts: {
         name: 'Tilt',
         list: 'Cut',
@@ -282,6 +309,7 @@ export const layerTexts = {
         told: (name: string, shown: string, problem: string) =>
             [name, [shown, problem].filter(Boolean).join('; ')].filter(Boolean).join(': '),
         leftOut: (files: string[]) => (files.length > 0 ? `left out: ${files.join('; ')}` : ''),
+        now: ' now',
         damaged: (name: string, reason: string) => `${name} is not shown: ${reason}.`,
         tooLarge: (mebibytes: number) => `it has more than ${mebibytes} MiB`,
         absent: 'the server does not have it',

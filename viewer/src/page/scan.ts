@@ -17,18 +17,20 @@ export function waveformOf(row: SweepRow, rows: SweepRow[]): readonly [string, s
     return [kind === '' ? '' : texts.layers.kinds[kind], ''];
 }
 
+// Returns the measured moments of a cut, without those that the server computes.
+export function measuredOf({ moments }: SweepRow): string[] {
+    return moments.map(({ moment }) => moment).filter((one) => !isMoment(one) || !momentFacts(one).isDerived);
+}
+
 // Returns the cells of a cut's row: angle, waveform, time, Nyquist velocity and measured moments. `speedText` adds a
 // unit to m/s.
 export function cutCells(row: SweepRow, rows: SweepRow[], speedText: (mps: number) => string): string[] {
-    const measured = row.moments
-        .map(({ moment }) => moment)
-        .filter((one) => !isMoment(one) || !momentFacts(one).isDerived);
     return [
         `${row.elevation_deg.toFixed(1)}°`,
         waveformOf(row, rows)[0],
         row.start?.slice(11, 19) ?? '',
         row.nyquist_mps === undefined ? '' : speedText(row.nyquist_mps),
-        measured.join(' '),
+        measuredOf(row).join(' '),
     ];
 }
 

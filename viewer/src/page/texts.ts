@@ -66,8 +66,8 @@ export const greatestOf = (halvings: number): string => `greatest of ${2 ** halv
 export const texts = {
     title: 'stormcellar',
     loading: 'Loading',
+    loadingOf: (domain: string, moment: string) => `${domain}  ${moment}  loading …`,
     noGrids: 'There are no grids yet. The page shows the first one as soon as it is there.',
-    noWebgl: 'This browser has no WebGL 2, which the view needs.',
     notFound: (domain: string, moment: string) =>
         `No ${moment} of ${domain} for this time. Choose another time or radar.`,
     notice: {
@@ -86,6 +86,7 @@ export const texts = {
     dealiased: 'Dealiased',
     derived: 'Derived',
     velocitySigns: 'negative toward the radar, positive away from it',
+    velocityEnds: ['away ▲', 'toward ▼'],
     derivedTold: 'Moments computed from the measured ones',
     noDealiased: (moment: string) =>
         `The server has no grids of ${moment} here. The layer "Radar tilt" can show dealiased sweeps.`,

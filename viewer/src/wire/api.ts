@@ -285,6 +285,21 @@ export async function overlayShapes(name: string): Promise<{ left_out?: string[]
     const answer = await ask(`overlays/${encodeURIComponent(name)}.geojson`, { cache: 'no-cache' });
     return (await answer.json()) as { left_out?: string[] };
 }
+// Returns the address of a picture that the server draws of a stored grid, and a function that fetches it. `product` is
+// 'volume', or a product of `stormcellar frame`.
+export function stillPicture(
+    domain: string,
+    moment: string,
+    time: string,
+    product: string,
+    width: number,
+    height: number,
+): { path: string; fetch: () => Promise<Blob> } {
+    const query = new URLSearchParams({ moment, time, width: String(width), height: String(height) });
+    if (product !== 'volume') query.set('product', product);
+    const path = `frames/${encodeURIComponent(domain)}.png?${query}`;
+    return { path, fetch: async () => (await ask(path)).blob() };
+}
 export interface Tables {
     tables: ColorTable[];
     usual: Record<string, string>; // name of the usual table of each moment
@@ -356,6 +371,14 @@ export async function rawAt(station: string, time: string): Promise<RawVolume | 
 export async function volumesUntil(station: string, time: string): Promise<VolumeRow[]> {
     const query = new URLSearchParams({ to: time, limit: '2' });
     return (await told<{ volumes: VolumeRow[] }>(`${volumesPath(station)}?${query}`)).volumes;
+}
+export interface VolumeAt extends VolumeRow {
+    time: string | null;
+}
+// Returns the volumes of a station that began from `from` to `to`, oldest first; of very many, the newest.
+export async function volumesBetween(station: string, from: string, to: string): Promise<VolumeAt[]> {
+    const query = new URLSearchParams({ from, to, limit: '1000' });
+    return (await told<{ volumes: VolumeAt[] }>(`${volumesPath(station)}?${query}`)).volumes;
 }
 export async function sweeps(station: string, time: string): Promise<SweepRow[]> {
     return (await told<{ sweeps: SweepRow[] }>(`${volumesPath(station)}/${encodeURIComponent(time)}/sweeps`)).sweeps;

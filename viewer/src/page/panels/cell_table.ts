@@ -119,9 +119,10 @@ export class CellTable {
         });
         this.body.replaceChildren(
             ...sortedCells(this.cells, this.column, this.isRising).map((cell) => {
-                const row = make('tr', { title: cell.id });
+                const row = make('tr', { title: cell.id, tabindex: '0' });
                 row.append(...columns.map(({ text }) => make('td', {}, text(cell, units))));
                 row.addEventListener('click', () => this.look(cell));
+                row.addEventListener('keydown', ({ key }) => key === 'Enter' && this.look(cell));
                 return row;
             }),
         );

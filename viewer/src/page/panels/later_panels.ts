@@ -21,8 +21,11 @@ import { ScanPanel } from './scan_panel';
 import { addShare } from './share';
 import { StationLine } from './station_line';
 import { addTilts } from './tilts';
+import { TimeTracks } from './time_tracks';
 import { ToolsPanel } from './tools';
 import { addUnits } from './unit_choice';
+
+export { showStills } from './still_page';
 
 export interface PageParts {
     app: App;
@@ -49,6 +52,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     new StationLine(app, drawing, facts).begin();
     addScale(app, drawing);
     addTilts(app, drawing, keys);
+    new TimeTracks(app, drawing).begin();
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;

@@ -334,8 +334,12 @@ export class LayersPanel {
     }
 
     private toggleCrop(): void {
-        if (this.pointers.current instanceof CropTool) this.pointers.use(null);
-        this.set({ crop: this.layers.crop ? null : wholeBox(this.app) });
+        if (this.layers.crop) {
+            if (this.pointers.current instanceof CropTool) this.pointers.use(null);
+            return this.set({ crop: null });
+        }
+        this.set({ crop: wholeBox(this.app) });
+        this.drawCrop();
     }
     private drawCrop(): void {
         this.draw(CropTool, words.dragCrop);

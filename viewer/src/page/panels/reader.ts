@@ -98,6 +98,7 @@ export class Reader implements Tool {
         keys.add('?', () => this.showHelp());
         this.drawing.addOverlay((pen, geometry) => this.draw(pen, geometry));
         element('actions').append(button('help', panelTexts.help, () => this.showHelp()));
+        element('scan-open').after(labeledButton('keys-open', '?', panelTexts.help, () => this.showHelp()));
     }
 
     hover(x: number, y: number): void {

@@ -30,15 +30,20 @@ function show(app: App, row: SweepRow): void {
 }
 
 // Returns a button with which the user shows a cut, or null if the cut lacks the shown moment. Also returns a function
-// that presses the button if the cut is shown.
+// that presses the button if the cut is shown. A press first calls `before`.
 export function cutButton(
     app: App,
     row: SweepRow,
     rows: SweepRow[],
+    idBegin = 'cut',
+    before: () => void = () => undefined,
 ): { shows: HTMLButtonElement; put: () => void } | null {
     const moment = momentOf(app);
     if (tiltsOf([row], moment).length === 0) return null;
-    const shows = button(`cut-${row.sweep}`, words.at(row.elevation_deg), () => show(app, row));
+    const shows = button(`${idBegin}-${row.sweep}`, words.at(row.elevation_deg), () => {
+        before();
+        show(app, row);
+    });
     shows.setAttribute('aria-label', cutText(row, rows));
     const put = () => shows.setAttribute('aria-pressed', String(wantedCut(app, rows)?.sweep === row.sweep));
     put();
