@@ -1,4 +1,6 @@
 // Checks that everybody can use the page: names of controls, keys, contrast, small and large windows, units.
+import axe from 'axe-core';
+
 import { expect, test as base } from './fixtures.mjs';
 
 // Contrast of WCAG 2.1 AA.
@@ -116,6 +118,43 @@ function misplaced() {
 }
 // Waits until the panels are in place, because a panel makes room for the head one frame after the head has changed.
 const expectInPlace = (viewer, what) => expect.poll(() => viewer.page.evaluate(misplaced), `${what}: what is not in its place`).toEqual([]);
+
+// Returns what axe-core finds, which is the rule and the first elements of each finding.
+async function findings(viewer) {
+  await viewer.page.evaluate(axe.source);
+  return viewer.page.evaluate(async () => {
+    const { violations } = await window.axe.run(document, { rules: { 'target-size': { enabled: true } }, resultTypes: ['violations'] });
+    return violations.map(({ id, nodes }) => [id, ...nodes.slice(0, 4).map(({ html, any }) => `${html.slice(0, 120)} ${any[0]?.message ?? ''}`)]);
+  });
+}
+
+for (const [width, height] of [[390, 844], [1440, 900]])
+  test(`axe-core finds nothing at ${width} x ${height}`, async ({ page, near: viewer }) => {
+    await viewer.resize(width, height);
+    const found = {};
+    const look = async (what) => {
+      const some = await findings(viewer);
+      if (some.length > 0) found[what] = some;
+    };
+    await look('view');
+    for (const panel of panels) {
+      await open(viewer, panel);
+      await look(panel[1]);
+    }
+    await viewer.key('Escape');
+    await viewer.byId('picture').focus();
+    await viewer.key('?');
+    await expect(viewer.byId('reading').locator('.keys')).toBeVisible();
+    await look('keys');
+    await viewer.key('Escape');
+    await viewer.press('mode-2d');
+    await viewer.until(() => document.getElementById('tilts')?.checkVisibility());
+    await look('2D');
+    await viewer.press('to-map');
+    await expect(page.locator('#found button').first()).toBeVisible();
+    await look('map');
+    expect(found).toEqual({});
+  });
 
 test('each control has a name, and texts have contrast', async ({ near: viewer }) => {
   for (const panel of [...panels, derived]) {
