@@ -178,4 +178,37 @@ test.describe('an overlay of the server', () => {
     await looks.shapes(0);
     expect(await viewer.told('overlay')).toBeNull();
   });
+
+  // 2026-11-30: the page judged warnings by the time of the newest volume, so that they came minutes late.
+  test('shows what is in force now while the page is live', async ({ page, viewer, server, scene, drawn, looks }) => {
+    const newestMs = Date.parse((await server.grid(server.station)).time);
+    let nowMs = newestMs + 5 * 60_000;
+    const dated = () => ({ Date: new Date(nowMs).toUTCString() });
+    await page.route('**/api/v1/events*', (route) => route.fulfill({ headers: { ...dated(), 'Content-Type': 'text/event-stream' }, body: ':\n\n' }));
+    await page.route('**/api/v1/stations', async (route) => {
+      const response = await route.fetch();
+      await route.fulfill({ response, headers: { ...response.headers(), ...dated() } });
+    });
+    const [one] = drawn.features;
+    const from = (ms) => ({ ...one.properties, begin: new Date(newestMs + ms).toISOString(), end: new Date(newestMs + 3_600_000).toISOString() });
+    const answer = collection({ ...one, properties: from(4 * 60_000) }, { ...one, properties: from(8 * 60_000) });
+    await page.route('**/overlays/warnings.geojson', (route) => route.fulfill({ json: answer }));
+    await page.addInitScript(() => {
+      const own = window.setInterval;
+      window.looks = [];
+      window.setInterval = (act, ms, ...more) => (ms === 15_000 ? window.looks.push(act) : own(act, ms, ...more));
+    });
+    await viewer.open(`${scene.view}&overlay=warnings`);
+    await expect(viewer.byId('overlays-told')).toHaveText('warnings: 1 of 2 in force now');
+    looks.expectLine(await looks.picture());
+    nowMs = newestMs + 9 * 60_000;
+    await expect
+      .poll(async () => {
+        await page.evaluate(() => window.looks.forEach((act) => act()));
+        return viewer.text('overlays-told');
+      }, { timeout: 60_000 })
+      .toBe('warnings: 2 of 2 in force now');
+    await viewer.settled(() => viewer.press('earlier'));
+    await expect(viewer.byId('overlays-told')).toHaveText('warnings: 0 of 2 in force');
+  });
 });

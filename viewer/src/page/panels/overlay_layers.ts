@@ -14,6 +14,8 @@ import { ShapeMarks } from './shape_marks';
 
 const words = layerTexts.overlays;
 const againAfterMs = 60_000;
+const lookAfterMs = 15_000; // between looks for shapes that have come into force, or are over
+const liveMs = 30 * 60 * 1000; // no radar takes so long from one volume to the next
 
 interface FileLayer {
     name: string;
@@ -43,6 +45,7 @@ export class OverlayLayers implements GroundShapes {
     private files: FileLayer[] = [];
     private marks = new ShapeMarks();
     private timer = 0; // 0: all shapes in force are projected
+    private drawn: Shape[] = []; // of the last picture
 
     constructor(
         private app: App,
@@ -53,6 +56,10 @@ export class OverlayLayers implements GroundShapes {
         this.drawing.shapes = this;
         this.app.on(['view', 'shown', 'choices', 'time'], () => this.need());
         window.setInterval(() => this.fetchAgain(), againAfterMs);
+        window.setInterval(() => {
+            const { shown } = this;
+            if (shown.length !== this.drawn.length || shown.some((one, i) => one !== this.drawn[i])) this.update();
+        }, lookAfterMs);
         this.need();
     }
 
@@ -131,13 +138,22 @@ export class OverlayLayers implements GroundShapes {
         this.changed();
         this.drawing.draw();
     }
+    // Returns true if shapes are shown that are in force now. A live page shows a warning at once, and not with the next
+    // volume.
+    private get isNow(): boolean {
+        const { player, server, shown } = this.app;
+        const ageMs = server.nowMs - (shown?.loaded.grid.timeMs ?? NaN);
+        return player.follows && ageMs >= 0 && ageMs < liveMs;
+    }
+    // Returns the time for which shapes are shown: that of the volume, or the present.
     private get timeMs(): number {
-        return this.app.shown?.loaded.grid.timeMs ?? NaN;
+        return this.isNow ? this.app.server.nowMs : (this.app.shown?.loaded.grid.timeMs ?? NaN);
     }
     get rows(): OverlayRow[] {
         const { overlays } = this.app.state;
+        const told = (shapes: Shapes) => shownText(shapes, this.timeMs) + (this.isNow ? words.now : '');
         const text = (name: string, shapes: Shapes | null | undefined, problem = '') =>
-            words.told(name, shapes && this.app.shown ? shownText(shapes, this.timeMs) : '', problem);
+            words.told(name, shapes && this.app.shown ? told(shapes) : '', problem);
         const served = [...new Set([...this.names, ...overlays])].map((name) => {
             const layer = this.served.get(name);
             const isOn = overlays.includes(name);
@@ -185,6 +201,7 @@ export class OverlayLayers implements GroundShapes {
     }
     draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry, taken: readonly Rect[], ratio: number): Rect[] {
         const { shown } = this;
+        this.drawn = shown;
         document.documentElement.dataset['shapes'] = String(shown.length);
         if (this.timer === 0) this.project();
         return this.marks.draw(pen, geometry, ratio, taken, shown);
