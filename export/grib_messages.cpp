@@ -24,7 +24,6 @@ constexpr long observation_time = 3;                  // table 1.2
 constexpr long processed_radar = 6;                   // table 1.4
 constexpr long wgs84_earth = 5;                       // table 3.2
 constexpr long observation = 8;                       // table 4.3
-constexpr long entire_atmosphere = 10;                // table 4.5
 constexpr long point_in_time = 0, sum_over_time = 8;  // templates of section 4
 constexpr long accumulation = 1;                      // table 4.10
 constexpr long unit_second = 13;                      // table 4.4
