@@ -143,7 +143,8 @@ void print_facts(const level2::Decoded& decoded, const level2::FileFacts& file) 
         fmt::print(", {} LDM {}", *report.ldm_records,
                    plural(static_cast<std::uint64_t>(*report.ldm_records), "record"));
     }
-    fmt::print(", {} bytes of messages\n", report.message_bytes);
+    if (!report.message_counts.empty()) fmt::print(", {} bytes of messages", report.message_bytes);
+    fmt::print("\n");
     if (volume.vcp) {
         fmt::print("  VCP       {} (from {})\n", *volume.vcp, vcp_source_text(volume.vcp_source));
     }
@@ -351,7 +352,8 @@ int run_info(const InfoOptions& options) {
 Run set_up_info(CLI::App& info) {
     const auto options = std::make_shared<InfoOptions>();
     info.add_option("FILE", options->files,
-                    "The files to describe: Level II files, a directory of chunks, or - for "
+                    "The files to describe: Level II, ODIM_H5 or CfRadial files, a directory of "
+                    "chunks, or - for "
                     "standard input. For a tar or zip archive or a directory of files, each file "
                     "is described. Chunks that are named one by one are put together. The content "
                     "of a file decides what it is")

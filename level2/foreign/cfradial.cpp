@@ -70,7 +70,8 @@ class GroupReader {
     PolarFile& file_;
     std::vector<Axis> axes_;
     std::vector<UtcTime> times_;
-    std::vector<double> azimuths_deg_, elevations_deg_, ray_gates_, ray_starts_, fixed_deg_, cuts_;
+    std::vector<double> azimuths_deg_, elevations_deg_, ray_gates_, ray_starts_, fixed_deg_, cuts_,
+        spacings_deg_, messages_;
     std::vector<Field> fields_;
 };
 
@@ -267,13 +268,16 @@ void GroupReader::take_sweep(std::size_t index, std::size_t first_ray, std::size
     for (std::size_t ray = first_ray; ray <= last_ray; ++ray) {
         Radial& radial = made.sweep.radials.emplace_back();
         radial.time = times_[ray];
-        radial.azimuth_deg = static_cast<float>(std::remainder(azimuths_deg_[ray], 360));
-        if (radial.azimuth_deg < 0) radial.azimuth_deg += 360;
+        const double turned_deg = std::fmod(azimuths_deg_[ray], 360);
+        radial.azimuth_deg = static_cast<float>(turned_deg < 0 ? turned_deg + 360 : turned_deg);
         radial.elevation_deg = static_cast<float>(elevations_deg_[ray]);
     }
     set_radials(made.sweep, first_ray);
     if (index < cuts_.size() && cuts_[index] >= 1)
         made.sweep.elevation_number = number<std::uint8_t>(cuts_[index]);
+    if (index < spacings_deg_.size() && (spacings_deg_[index] == 0.5 || spacings_deg_[index] == 1))
+        made.sweep.azimuth_spacing_deg = static_cast<float>(spacings_deg_[index]);
+    if (index < messages_.size() && messages_[index] == 1) made.sweep.message_type = 1;
     if (index < fixed_deg_.size() && std::abs(fixed_deg_[index]) <= 90)
         made.sweep.vcp_elevation_deg = static_cast<float>(fixed_deg_[index]);
     for (const Field& field : fields_) {
@@ -290,6 +294,8 @@ Status GroupReader::read() {
     fixed_deg_ = numbers("fixed_angle");
     if (fixed_deg_.empty()) fixed_deg_ = numbers("sweep_fixed_angle");
     cuts_ = numbers("elevation_number");
+    messages_ = numbers("message_type");
+    spacings_deg_ = numbers("ray_angle_res");
     const std::vector<double> starts = numbers("sweep_start_ray_index");
     const std::vector<double> ends = numbers("sweep_end_ray_index");
     const std::vector<std::string> modes = values_.texts(group_, "sweep_mode");

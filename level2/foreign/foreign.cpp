@@ -42,7 +42,8 @@ void set_order(PolarFile& file) {
             sweep.radials, [](const Radial& radial) { return radial.azimuth_number != 0; });
         if (sweep.elevation_number == 0) sweep.elevation_number = static_cast<int>(i + 1);
         for (const double spacing_deg : {0.5, 1.0}) {
-            if (std::abs(static_cast<double>(count) * spacing_deg - 360) <= spacing_deg)
+            if (sweep.azimuth_spacing_deg == 0 &&
+                std::abs(static_cast<double>(count) * spacing_deg - 360) <= spacing_deg)
                 sweep.azimuth_spacing_deg = static_cast<float>(spacing_deg);
         }
         if (has_numbers) continue;

@@ -147,6 +147,12 @@ std::vector<double> elevations_of(const Place& place, std::size_t rays, double f
     return all;
 }
 
+// Returns the number of the ray that was measured first.
+std::size_t first_ray_of(const Place& place, std::size_t rays) {
+    const double ray = place.number("where", "a1gate").value_or(0);
+    return ray > 0 && ray < static_cast<double>(rays) ? static_cast<std::size_t>(ray) : 0;
+}
+
 // Returns a time for each ray. Without times of rays, spreads the time of the sweep over them,
 // beginning with the ray that was measured first.
 std::vector<UtcTime> times_of(const Place& place, std::size_t rays) {
@@ -163,10 +169,7 @@ std::vector<UtcTime> times_of(const Place& place, std::size_t rays) {
     const UtcTime last = std::max(first, time_of(place, "enddate", "endtime").value_or(first));
     constexpr std::chrono::hours longest_sweep{1};
     const auto length = std::min<std::chrono::milliseconds>(last - first, longest_sweep);
-    const double first_ray = place.number("where", "a1gate").value_or(0);
-    const std::size_t turned = first_ray > 0 && first_ray < static_cast<double>(rays)
-                                   ? static_cast<std::size_t>(first_ray)
-                                   : 0;
+    const std::size_t turned = first_ray_of(place, rays);
     times.clear();
     for (std::size_t i = 0; i < rays; ++i) {
         const auto place_in_turn = static_cast<std::int64_t>((i + rays - turned) % rays);
@@ -268,9 +271,12 @@ std::optional<PolarSweep> sweep_of(const Group& root, const Group& dataset, Pola
     // This program's files have the velocities of all rays where they differ.
     auto nyquists_mps = place.numbers("how", "nyquist_velocities");
     if (nyquists_mps.size() != count) nyquists_mps.assign(count, nyquist_mps);
-    // Rays are in the order of azimuth; radials are in the order of time.
+    // Rays are in the order of azimuth; radials are in the order of time. Clocks may be coarse, so
+    // rays of the same time stay in the order in which the antenna turns.
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::rotate(order,
+                        order.begin() + static_cast<std::ptrdiff_t>(first_ray_of(place, count)));
     std::ranges::stable_sort(order, {}, [&](std::size_t ray) { return times[ray]; });
     PolarSweep made;
     made.sweep.vcp_elevation_deg = static_cast<float>(*elevation_deg);
