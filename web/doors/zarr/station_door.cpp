@@ -15,6 +15,7 @@
 #include "stormcellar/catalog/read_cataloged.h"
 #include "web/data/grids/compressed.h"
 #include "web/data/grids/text_answer.h"
+#include "web/data/pictures/map_product.h"
 #include "web/doors/pictures/picture_answers.h"
 
 namespace stormcellar::web {
