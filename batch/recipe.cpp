@@ -84,6 +84,12 @@ retrieve::DerivedOptions derived_of(const Json& json) {
     derived.quality = json.value("quality", derived.quality);
     if (!(derived.quality >= 0 && derived.quality <= 1))
         throw std::domain_error("its quality is not from 0 to 1");
+    if (json.contains("storm_motion")) {
+        const auto motion =
+            retrieve::motion_choice_from(json.at("storm_motion").get<std::string>());
+        if (!motion) throw std::domain_error(motion.error().message);
+        derived.motion = *motion;
+    }
     if (!json.contains("dealias")) return derived;
     const auto rung = retrieve::dealiasing_from_name(json.at("dealias").get<std::string>());
     if (!rung) throw std::domain_error("its dealiasing is not known");
@@ -158,6 +164,9 @@ Json json_of(const Recipe& recipe) {
               {"moments", moments},
               {"dealias", retrieve::dealiasing_name(recipe.derived.dealiasing)},
               {"quality", recipe.derived.quality}};
+    // Plans with the default keep their hash.
+    if (recipe.derived.motion.rule != retrieve::MotionChoice{}.rule)
+        json["storm_motion"] = retrieve::motion_choice_text(recipe.derived.motion);
     if (recipe.domain) {
         json["domain"] = json_of_domain(*recipe.domain);
         json["statistics"] = recipe.statistics.has_value();

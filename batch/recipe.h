@@ -28,7 +28,7 @@ struct Recipe {
     // The times of the frames, or of the starts of volumes if there is no domain; inclusive.
     UtcTime from, to;
     std::vector<level2::Moment> moments = {level2::Moment::ref};
-    // how velocities are dealiased, and which echo is left out; the motion of SRV is the default
+    // how velocities are dealiased, the motion of SRV, and which echo is left out
     retrieve::DerivedOptions derived = {};
     // the counts to make of the domain's frames; none: no counts
     std::optional<grid::Tallied> statistics;

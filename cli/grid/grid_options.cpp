@@ -103,6 +103,10 @@ void add_derivation_options(CLI::App& app, GridOptions& options) {
                    fmt::format("How to dealias the velocity (VELD instead of VEL): {}",
                                retrieve::dealiasing_names()))
         ->default_str("off");
+    app.add_option("--storm-motion", options.storm_motion,
+                   fmt::format("The motion to which the storm-relative velocity, SRV, refers: {}",
+                               retrieve::motion_choices()))
+        ->default_str(std::string(retrieve::automatic_motion));
     app.add_option("--quality", options.quality,
                    "Leave out echo whose probability of weather is less than this, from 0 to 1. "
                    "0.5 leaves out most birds, insects and ground. Default: 0, which keeps all");
@@ -119,10 +123,6 @@ void add_spec_options(CLI::App& app, GridOptions& options) {
                                    : ""))
         ->capture_default_str();
     add_derivation_options(app, options);
-    app.add_option("--storm-motion", options.storm_motion,
-                   fmt::format("The motion to which the storm-relative velocity, SRV, refers: {}",
-                               retrieve::motion_choices()))
-        ->default_str(std::string(retrieve::automatic_motion));
     app.add_option("--threads", options.threads,
                    options.threads == 0
                        ? std::string{"Number of threads. Default: all processors"}

@@ -11,6 +11,7 @@
 #include "cli/shared/site_options.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/hail.h"
 
 namespace stormcellar::cli {
 
@@ -26,9 +27,10 @@ struct GridOptions {
     std::optional<double> spacing_km, spacing_deg;
     std::string levels_km;
     std::string moment{level2::moment_name(level2::Moment::ref)};
-    std::string dealias;         // empty: not typed
-    std::string storm_motion;    // empty: not typed
-    double quality = 0;          // least probability of weather; 0: all echo
+    std::string dealias;       // empty: not typed
+    std::string storm_motion;  // empty: not typed
+    double quality = 0;        // least probability of weather; 0: all echo
+    double zero_c_m = retrieve::FreezingLevels{}.zero_c_m;  // that HCA may assume
     bool takes_moments = false;  // --moment may name several moments, or "all"
     // Height of 0 C that a product assumes: notes say if the melting layer is elsewhere.
     std::optional<double> assumed_zero_c_m;
@@ -46,7 +48,7 @@ void add_grid_options(CLI::App& app, GridOptions& options);
 void add_place_options(CLI::App& app, GridOptions& options);
 // Adds --volume, which chooses one volume of a file, or of a directory of chunks.
 void add_volume_option(CLI::App& app, GridOptions& options);
-// Adds --dealias and --quality.
+// Adds --dealias, --storm-motion and --quality.
 void add_derivation_options(CLI::App& app, GridOptions& options);
 // Adds the options for the grid, the moment and the number of threads.
 void add_spec_options(CLI::App& app, GridOptions& options);

@@ -184,6 +184,7 @@ Status choose_quality(const GridOptions& options, GridRequest& request) {
     const bool is_share = options.quality >= 0 && options.quality <= 1;
     if (!is_share) return fail(ErrorCode::bad_argument, "--quality must be from 0 to 1");
     request.derived.quality = options.quality;
+    request.derived.zero_c_m = options.zero_c_m;
     return {};
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/care/archive_fill.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/catalog/read_cataloged.h"
 #include "stormcellar/grid/grid_window.h"
+#include "stormcellar/retrieve/hydrometeors.h"
 
 namespace stormcellar::pipeline {
 namespace {
@@ -154,6 +156,9 @@ bool is_derived_as(const retrieve::DerivedOptions& options,
                    const cache::GridDescription& description) {
     const std::vector<std::string>& notes = description.provenance.notes;
     if (!retrieve::is_of_quality(notes, options.quality)) return false;
+    if (!retrieve::is_of_motion(notes, options.motion)) return false;
+    const auto zero_c = retrieve::assumed_zero_c_in_notes(notes);
+    if (zero_c && std::lround(*zero_c) != std::lround(options.zero_c_m)) return false;
     const std::string rung = retrieve::dealiasing_in_notes(notes);
     return rung.empty() || options.dealiasing == retrieve::Dealiasing::automatic ||
            rung == retrieve::dealiasing_name(options.dealiasing);

@@ -66,9 +66,10 @@ using FillProgress = std::function<void(std::size_t done)>;
 
 // Returns the options with which the chain makes the grids of such a cache.
 [[nodiscard]] IngestOptions ingest_options(const ArchiveOptions& options);
-// Returns true if the provenance of a grid tells of the quality and of the rung of dealiasing that
-// these options give. The notes of VELD do not name the rung, and those of a mosaic may lack it;
-// then any rung passes. So does every rung if the options leave the choice to each volume.
+// Returns true if the provenance of a grid tells of the quality, the storm motion, the assumed
+// height of 0 C and the rung of dealiasing that these options give. The notes of VELD do not name
+// the rung, and those of a mosaic may lack it; then any rung passes. So does every rung if the
+// options leave the choice to each volume.
 [[nodiscard]] bool is_derived_as(const retrieve::DerivedOptions& options,
                                  const cache::GridDescription& description);
 // Returns true if the grid of a volume has the shape and place that these options give, and is

@@ -23,6 +23,19 @@ std::string recipe_of(const grid::GridSpec& spec) {
                        spec.ny, fmt::join(spec.levels_m, " "));
 }
 
+// Leaves out what has its default or does not change the moment.
+std::string recipe_of(const retrieve::DerivedOptions& options, level2::Moment moment) {
+    const retrieve::DerivedOptions usual;
+    std::string text =
+        fmt::format("{} {}\n", retrieve::dealiasing_name(options.dealiasing), options.quality);
+    const std::string motion = retrieve::motion_choice_text(options.motion);
+    if (moment == level2::Moment::srv && motion != retrieve::motion_choice_text(usual.motion))
+        text += motion + "\n";
+    if (moment == level2::Moment::hca && options.zero_c_m != usual.zero_c_m)
+        text += fmt::format("{}\n", options.zero_c_m);
+    return text;
+}
+
 }  // namespace
 
 std::vector<grid::SitePosition> sites_of(const catalog::CatalogReader& catalog,
@@ -67,8 +80,7 @@ Result<fs::path> private_cache(const fs::path& catalog_directory, level2::Moment
     std::string recipe = fmt::format("{}\n{}\n{}\n{}\n", software_version,
                                      (error ? catalog_directory : catalog).native(),
                                      level2::moment_name(moment), fmt::join(plan.stations, " "));
-    recipe += fmt::format("{} {}\n", retrieve::dealiasing_name(plan.fill.derived.dealiasing),
-                          plan.fill.derived.quality);
+    recipe += recipe_of(plan.fill.derived, moment);
     if (plan.mosaic) {
         const auto rules = frame_options(*plan.mosaic, moment, 1);
         recipe += fmt::format("{}\n{}\n{} {} {}", plan.mosaic->name, recipe_of(plan.mosaic->spec),

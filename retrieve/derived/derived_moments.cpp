@@ -33,6 +33,7 @@ constexpr std::array<RuleFacts, 3> profile_rules = {
     {{MotionRule::right, "right", "right mover of the wind profile"},
      {MotionRule::left, "left", "left mover of the wind profile"},
      {MotionRule::mean, "mean", "mean wind from 0 to 6 km"}}};
+constexpr std::string_view given_source = "as given";
 
 struct ChosenMotion {
     Motion motion;
@@ -45,7 +46,7 @@ Motion rounded(const Motion& motion) {
 }
 
 Result<ChosenMotion> chosen_motion(const level2::Volume& volume, const MotionChoice& choice) {
-    if (choice.rule == MotionRule::given) return ChosenMotion{rounded(choice.motion), "as given"};
+    if (choice.rule == MotionRule::given) return ChosenMotion{rounded(choice.motion), given_source};
     const auto layers = wind_profile(volume, read_folds(volume));
     if (!layers) return pass_on(layers);
     const auto motions = bunkers_motions(*layers);
@@ -162,6 +163,23 @@ std::string motion_choices() {
     return "auto, right, left, mean, or a motion such as 240/15, from 240 degrees at 15 m/s";
 }
 
+std::string motion_choice_text(const MotionChoice& choice) {
+    if (choice.rule == MotionRule::given) return format_motion(choice.motion);
+    return std::string(std::ranges::find(profile_rules, choice.rule, &RuleFacts::rule)->word);
+}
+
+bool is_of_motion(std::span<const std::string> notes, const MotionChoice& choice) {
+    const auto* facts = std::ranges::find(profile_rules, choice.rule, &RuleFacts::rule);
+    return std::ranges::all_of(notes, [&](const std::string& note) {
+        const std::size_t at = note.find(motion_words);
+        const bool is_motion = at == 0 || (at != note.npos && note.substr(0, at).ends_with(": "));
+        if (!is_motion) return true;
+        if (choice.rule != MotionRule::given) return note.ends_with(facts->source);
+        return note.substr(at + motion_words.size()) ==
+               fmt::format("{}, {}", format_motion(choice.motion), given_source);
+    });
+}
+
 Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Moment> wanted,
                                     const DerivedOptions& options) {
     Derived derived;
@@ -175,7 +193,7 @@ Result<Derived> add_derived_moments(level2::Volume& volume, std::span<const Mome
     if (std::ranges::find(wanted, Moment::pow) != wanted.end()) add_quality_moment(volume);
     add_rain_moments(volume, wanted);
     if (std::ranges::find(wanted, Moment::hca) != wanted.end())
-        derived.notes.push_back(add_hydrometeor_moment(volume));
+        derived.notes.push_back(add_hydrometeor_moment(volume, options.zero_c_m));
     if (std::ranges::none_of(wanted, level2::is_dealiased)) return derived;
     if (options.dealiasing == Dealiasing::off)
         return fail(ErrorCode::bad_argument, "moments derived from velocities need dealiasing");

@@ -35,8 +35,8 @@ SweepMoment class_moment(const SweepMoment& reflectivity, const SweepHydrometeor
 
 }  // namespace
 
-std::string add_hydrometeor_moment(level2::Volume& volume) {
-    const Hydrometeors found = hydrometeors(volume);
+std::string add_hydrometeor_moment(level2::Volume& volume, double zero_c_m) {
+    const Hydrometeors found = hydrometeors(volume, zero_c_m);
     std::vector<std::pair<std::size_t, SweepMoment>> made;
     for (const SweepHydrometeors& of : found.sweeps)
         made.emplace_back(of.sweep, class_moment(volume.sweeps[of.sweep].moments[of.moment], of));

@@ -12,6 +12,7 @@
 namespace stormcellar::retrieve {
 
 // Adds HCA to the sweeps that have dual polarization. Returns a note that gives the melting layer.
-[[nodiscard]] std::string add_hydrometeor_moment(level2::Volume& volume);
+// `zero_c_m` is as in hydrometeors().
+[[nodiscard]] std::string add_hydrometeor_moment(level2::Volume& volume, double zero_c_m);
 
 }  // namespace stormcellar::retrieve

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -14,7 +15,6 @@
 #include "retrieve/quality/echo_features.h"
 #include "retrieve/quality/gate_field.h"
 #include "stormcellar/grid/beam_geometry.h"
-#include "stormcellar/retrieve/hail.h"
 #include "stormcellar/retrieve/kdp.h"
 
 namespace stormcellar::retrieve {
@@ -24,6 +24,7 @@ using level2::Moment;
 
 constexpr double half_beam_deg = 0.95 / 2, mean_length_m = 1250;
 constexpr double assumed_depth_m = 500;
+constexpr std::string_view class_zero_c_words = ", with 0 C at ";
 constexpr float least_kdp_deg_per_km = 0.001F;  // 10 lg of it is -30
 
 // Collects the variables of all gates with echo of a sweep.
@@ -158,9 +159,9 @@ std::optional<SweepHydrometeors> classify(const level2::Volume& volume, std::siz
     return made;
 }
 
-MeltingLayer assumed_layer(const level2::Volume& volume) {
+MeltingLayer assumed_layer(const level2::Volume& volume, double zero_c_m) {
     const auto antenna = level2::antenna_position(volume);
-    const double top = FreezingLevels{}.zero_c_m - (antenna ? antenna->altitude_m : 0);
+    const double top = zero_c_m - (antenna ? antenna->altitude_m : 0);
     MeltingLayer layer;
     layer.heights = {top - assumed_depth_m, top, assumed_depth_m, assumed_depth_m};
     return layer;
@@ -205,12 +206,24 @@ std::vector<SweepHydrometeors> hydrometeors(const level2::Volume& volume,
     return made;
 }
 
-Hydrometeors hydrometeors(const level2::Volume& volume) {
+Hydrometeors hydrometeors(const level2::Volume& volume, double zero_c_m) {
     const auto found = melting_layer(volume);
-    const MeltingLayer layer = found ? *found : assumed_layer(volume);
+    const MeltingLayer layer = found ? *found : assumed_layer(volume, zero_c_m);
     const std::string text = layer_text(layer.heights);
     return {hydrometeors(volume, layer),
-            found ? text : fmt::format("assumed {}: {}", text, found.error().message)};
+            found ? text
+                  : fmt::format("assumed {}{}{:.0f} m above sea level: {}", text,
+                                class_zero_c_words, zero_c_m, found.error().message)};
+}
+
+std::optional<double> assumed_zero_c_in_notes(std::span<const std::string> notes) {
+    for (const std::string& note : notes) {
+        if (note.find(hydrometeor_words) == note.npos) continue;
+        const std::size_t at = note.find(class_zero_c_words);
+        if (at != note.npos)
+            return std::strtod(note.c_str() + at + class_zero_c_words.size(), nullptr);
+    }
+    return std::nullopt;
 }
 
 }  // namespace stormcellar::retrieve

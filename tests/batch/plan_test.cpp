@@ -86,6 +86,7 @@ TEST(Plan, ReadsBackTheRecipeThatWasWritten) {
         recipe.derived.quality = own ? 0.1 + 0.2 : 0;
         recipe.derived.dealiasing =
             own ? retrieve::Dealiasing::region : retrieve::Dealiasing::automatic;
+        if (own) recipe.derived.motion = *retrieve::motion_choice_from("240/15.5");
         if (own) {
             recipe.domain.reset();
             recipe.levels_m = {500, 1000.25};
@@ -101,6 +102,8 @@ TEST(Plan, ReadsBackTheRecipeThatWasWritten) {
         EXPECT_EQ(plan->recipe().moments, recipe.moments);
         EXPECT_EQ(plan->recipe().derived.quality, recipe.derived.quality);
         EXPECT_EQ(plan->recipe().derived.dealiasing, recipe.derived.dealiasing);
+        EXPECT_EQ(retrieve::motion_choice_text(plan->recipe().derived.motion),
+                  own ? "240/15.5" : "right");
         EXPECT_EQ(plan->recipe().from, recipe.from);
         EXPECT_EQ(plan->facts().hash, hash_of(recipe));
     }

@@ -251,6 +251,22 @@ TEST(MotionChoice, IsAWordOrAMotion) {
     }
 }
 
+TEST(MotionChoice, IsReadBackFromItsTextAndFoundInNotes) {
+    const auto fits = [](const std::string& note, const char* choice) {
+        return is_of_motion(std::array{std::string("a note"), note}, *motion_choice_from(choice));
+    };
+    for (const char* text : {"right", "left", "mean", "240/15.5"})
+        EXPECT_EQ(motion_choice_text(*motion_choice_from(text)), text);
+    EXPECT_TRUE(fits("storm motion 240/15, as given", "240/15"));
+    EXPECT_TRUE(fits("KTLX: storm motion 240/15, as given", "240.2/15"));
+    EXPECT_FALSE(fits("storm motion 240/15, as given", "240/1"));
+    EXPECT_FALSE(fits("storm motion 240/15, as given", "auto"));
+    EXPECT_TRUE(fits("storm motion 240/15, right mover of the wind profile", "auto"));
+    EXPECT_FALSE(fits("storm motion 240/15, right mover of the wind profile", "240/15"));
+    EXPECT_FALSE(fits("storm motion 240/15, right mover of the wind profile", "left"));
+    EXPECT_TRUE(fits("no motion", "240/15"));
+}
+
 TEST(MotionInNotes, IsNoneIfSitesDiffer) {
     const auto found = [](std::vector<std::string> notes) {
         const auto motion = motion_in_notes(notes);

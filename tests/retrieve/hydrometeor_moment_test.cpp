@@ -5,7 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -61,9 +64,32 @@ TEST(HydrometeorMoment, NeedsDualPolarization) {
     level2::Volume volume = rain_below_snow();
     for (level2::Sweep& sweep : volume.sweeps)
         sweep.moments.resize(1);
-    EXPECT_NE(add_hydrometeor_moment(volume).find("no dual polarization"), std::string::npos);
+    EXPECT_NE(add_hydrometeor_moment(volume, 4200).find("no dual polarization"), std::string::npos);
     for (const level2::Sweep& sweep : volume.sweeps)
         EXPECT_EQ(sweep.find(Moment::hca), nullptr);
+}
+
+TEST(HydrometeorMoment, AssumesTheGivenHeightWhereNoLayerIsSeen) {
+    const auto note_of = [](level2::Volume volume, double zero_c_m) {
+        auto derived = add_derived_moments(volume, std::array{Moment::hca}, {.zero_c_m = zero_c_m});
+        return derived->notes.at(0);
+    };
+    // The volume shows its layer, so the given height does not count.
+    EXPECT_EQ(note_of(rain_below_snow(), 1500), note_of(rain_below_snow(), 4200));
+    EXPECT_EQ(assumed_zero_c_in_notes(std::array{note_of(rain_below_snow(), 1500)}), std::nullopt);
+    // A sweep at 3 degrees shows none. With 0 C at 1500 m, the echo at 2000 m is no rain.
+    LayeredSpec low;
+    low.radials = 90;
+    low.elevations_deg = {3};
+    const auto rain = [](double, double, double) { return MeltingProfile{}.at(0); };
+    const auto rain_gates = [&](double zero_c_m) {
+        level2::Volume volume = layered_volume(low, rain);
+        EXPECT_EQ(assumed_zero_c_in_notes(std::array{note_of(volume, zero_c_m)}), zero_c_m);
+        std::ignore = add_hydrometeor_moment(volume, zero_c_m);
+        return std::ranges::count(volume.sweeps[0].find(Moment::hca)->codes8,
+                                  2 + static_cast<int>(Hydrometeor::rain));
+    };
+    EXPECT_LT(rain_gates(1500), rain_gates(4200) / 2);
 }
 
 TEST(HydrometeorMoment, NumbersNameTheirClass) {

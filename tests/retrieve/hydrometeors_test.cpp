@@ -137,8 +137,8 @@ TEST(Hydrometeors, NameTheLayerInUse) {
     low.elevations_deg = {0.5};
     // The antenna of KTLX is 390 m above sea level, and 0 C is assumed at 4200 m.
     EXPECT_EQ(hydrometeors(layered_volume(low, point_at)).layer,
-              "assumed from 3310 to 3810 m above the antenna: no melting layer found: no sweep "
-              "from 4 to 10 degrees has dual polarization");
+              "assumed from 3310 to 3810 m above the antenna, with 0 C at 4200 m above sea level: "
+              "no melting layer found: no sweep from 4 to 10 degrees has dual polarization");
 }
 
 TEST(Hydrometeors, NeedDualPolarization) {

@@ -44,6 +44,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/volume.h"
 #include "stormcellar/retrieve/dealias.h"
+#include "stormcellar/retrieve/hail.h"
 #include "stormcellar/retrieve/storm_motion.h"
 
 namespace stormcellar::retrieve {
@@ -64,6 +65,8 @@ inline constexpr std::string_view automatic_motion = "auto";
 [[nodiscard]] Result<MotionChoice> motion_choice_from(std::string_view text);
 // Returns "auto, right, left, mean, or a motion such as 240/15, from 240 degrees at 15 m/s".
 [[nodiscard]] std::string motion_choices();
+// Returns a text that motion_choice_from() reads as the same choice.
+[[nodiscard]] std::string motion_choice_text(const MotionChoice& choice);
 
 struct DerivedOptions {
     Dealiasing dealiasing = Dealiasing::automatic;
@@ -71,6 +74,8 @@ struct DerivedOptions {
     // First leaves out gates whose probability of weather (quality.h) is less than this; 0: keeps
     // all. They become below threshold, and a note gives the share (quality_in_notes()).
     double quality = 0;
+    // Height of 0 C above sea level that HCA assumes if a volume shows no melting layer.
+    double zero_c_m = FreezingLevels{}.zero_c_m;
 };
 
 // Returns true if a volume must pass through add_derived_moments() before its use.
@@ -118,6 +123,8 @@ struct DerivedVolume {
 // Returns the storm motion that notes of a grid's provenance give. None if no note gives a motion,
 // or if the sites of a mosaic have different motions.
 [[nodiscard]] std::optional<Motion> motion_in_notes(std::span<const std::string> notes);
+// Returns true if all motions in the notes come from this choice. Notes without a motion give true.
+[[nodiscard]] bool is_of_motion(std::span<const std::string> notes, const MotionChoice& choice);
 // Returns the name of the rung in the same way; empty if there is none.
 [[nodiscard]] std::string dealiasing_in_notes(std::span<const std::string> notes);
 

@@ -9,8 +9,9 @@
 //           at least 0.5. The height of the beam, with its half-power width of 0.95 degrees, over
 //           the melting layer of its sector says which classes are possible, and hard limits rule
 //           out others: retrieve/hydrometeors/memberships.cpp has the tables.
-// Layer     That of melting_layer(). Without one, snow is assumed to melt over 500 m below the 0 C
-//           of FreezingLevels (hail.h), which is wrong in winter and in the tropics.
+// Layer     That of melting_layer(). Without one, snow is assumed to melt over 500 m below a given
+//           height of 0 C. The default is that of FreezingLevels (hail.h), which is wrong in winter
+//           and in the tropics.
 // Numbers   hydrometeor_number() gives those of product 165 of the National Weather Service.
 // Accuracy  Of the gates of synthetic layers with noise, 99 % of rain, dry snow and wet snow get
 //           their class, 93 % of graupel above a core of hail, 88 % of hail and 83 % of heavy rain;
@@ -29,12 +30,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "stormcellar/base/result.h"
 #include "stormcellar/level2/volume.h"
+#include "stormcellar/retrieve/hail.h"
 #include "stormcellar/retrieve/melting_layer.h"
 
 namespace stormcellar::retrieve {
@@ -74,16 +78,22 @@ struct SweepHydrometeors {
 
 struct Hydrometeors {
     std::vector<SweepHydrometeors> sweeps;  // those with dual polarization
-    // Heights of the layer in use, as "from 2280 to 2830 m above the antenna", and, if it was
-    // assumed, the reason.
+    // Heights of the layer in use, as "from 2280 to 2830 m above the antenna". If it was assumed,
+    // the text also has the height of 0 C and the reason.
     std::string layer;
 };
 
 // A note for provenance begins with these words; `layer` follows.
 inline constexpr std::string_view hydrometeor_words = "hydrometeor classes: melting layer ";
 
-// Classifies all sweeps of a volume that have dual polarization.
-[[nodiscard]] Hydrometeors hydrometeors(const level2::Volume& volume);
+// Returns the height of 0 C above sea level, rounded to meters, that such a note assumed; none if
+// no note assumed one.
+[[nodiscard]] std::optional<double> assumed_zero_c_in_notes(std::span<const std::string> notes);
+
+// Classifies all sweeps of a volume that have dual polarization. `zero_c_m` is above sea level; it
+// counts only if the volume shows no melting layer.
+[[nodiscard]] Hydrometeors hydrometeors(const level2::Volume& volume,
+                                        double zero_c_m = FreezingLevels{}.zero_c_m);
 // Uses a known layer.
 [[nodiscard]] std::vector<SweepHydrometeors> hydrometeors(const level2::Volume& volume,
                                                           const MeltingLayer& layer);
