@@ -101,12 +101,6 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
         return fail(ErrorCode::bad_argument, "the beam width must be 0 to {} degrees, not {}",
                     widest_beam_deg, options.beam_width_deg);
     }
-    if (level2::facts_of(options.moment).is_categorical) {
-        return fail(ErrorCode::bad_argument,
-                    "{} has classes, which have no mean: it is not gridded, but drawn sweep by "
-                    "sweep (ppi)",
-                    level2::moment_name(options.moment));
-    }
     if (options.method.averaging == Averaging::in_z && options.moment != level2::Moment::ref) {
         return fail(ErrorCode::bad_argument, "only reflectivity can be averaged in Z, not {}",
                     level2::moment_name(options.moment));
@@ -129,6 +123,16 @@ std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
     return options.frame_time ? options.frame_time : volume.start_time();
 }
 
+// Returns the options with which the moment is gridded. Classes have no mean, so a cell has the
+// class of the nearest gate of the nearest sweep, whatever the method asks for.
+GridderOptions fitting_moment(GridderOptions options) {
+    if (level2::facts_of(options.moment).is_categorical) {
+        options.method.interpolation = Interpolation::nearest;
+        options.method.cell = CellExtent::point;
+    }
+    return options;
+}
+
 double beam_width_deg(const SitePosition& site, const GridderOptions& options) {
     return options.beam_width_deg > 0 ? options.beam_width_deg : beam_width_of(site.icao);
 }
@@ -146,7 +150,8 @@ std::vector<ChosenSweep> sweeps_to_grid(const level2::Volume& volume, const Site
 }
 
 Result<Grid> make_grid(const level2::Volume& volume, const SitePosition& site,
-                       const ColumnGeometry& geometry, const GridderOptions& options) {
+                       const ColumnGeometry& geometry, const GridderOptions& asked) {
+    const GridderOptions options = fitting_moment(asked);
     if (auto good = check(site, geometry, options); !good) return pass_on(good);
     const std::vector<ChosenSweep> chosen = sweeps_to_grid(volume, site, options);
     if (chosen.empty()) {

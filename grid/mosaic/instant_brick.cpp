@@ -55,6 +55,7 @@ InstantMaker::InstantMaker(const TimedView& before, const std::optional<TimedVie
     : geometry_(&geometry),
       options_(options),
       blending_(blending_of(options.moment)),
+      has_classes_(level2::facts_of(options.moment).is_categorical),
       moves_(options.method == TimeMethod::advected && options.motion != nullptr) {
     if (is_tdwr(geometry.site().icao)) limit_.at_1km_dbz = tdwr_limit_at_1km_dbz;
     ends_.push_back(end_of(before, geometry, options));
@@ -188,8 +189,8 @@ Sample InstantBrick::mix(const Source& source, double x, double y, std::size_t c
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const auto code = [&](int ix, int iy) { return source.codes.column(ix, iy)[z]; };
-    // For values that wrap, only the nearest column counts.
-    if (is_circular(maker_.blending_)) {
+    // For values that wrap and for classes, only the nearest column counts.
+    if (is_circular(maker_.blending_) || maker_.has_classes_) {
         return sample_of(code(x0 + (fx >= 0.5F ? 1 : 0), y0 + (fy >= 0.5F ? 1 : 0)));
     }
     const std::array<std::uint16_t, 4> codes = {code(x0, y0), code(x0 + 1, y0), code(x0, y0 + 1),
@@ -295,6 +296,9 @@ void InstantBrick::fill() {
                     codes_[cell] = code_of({a.status, a.value});
                 } else if (a.status == CellStatus::not_seen) {
                     codes_[cell] = code_of({b.status, b.value});
+                } else if (maker_.has_classes_) {
+                    const Sample& nearer = weight_of_after(cell) > 0.5F ? b : a;
+                    codes_[cell] = code_of({nearer.status, nearer.value});
                 } else {
                     codes_[cell] = code_of(blend(with_limit(a, cell), with_limit(b, cell),
                                                  weight_of_after(cell), maker_.blending_));

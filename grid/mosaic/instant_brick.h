@@ -39,6 +39,7 @@ class InstantMaker {
     const ColumnGeometry* geometry_;
     InstantOptions options_;
     Blending blending_;
+    bool has_classes_;  // which are not mixed
     DetectionLimit limit_;
     bool moves_;
 };

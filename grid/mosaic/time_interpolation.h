@@ -13,9 +13,9 @@
 // States    Between columns, the status rule (grid/sweep/mixture.h) applies with bilinear weights.
 //           Between the two volumes, it applies with the weights in time; but if one volume has not
 //           seen a cell, the cell is as in the other volume. Values are mixed in dB. Moments that
-//           wrap (VEL, PHI) are not mixed, nor are their states: the column and the volume with the
-//           largest weight determine the cell. No echo enters a value with the range curve of
-//           grid/beam/detection_limit.h.
+//           wrap (VEL, PHI) and classes (HCA) are not mixed, nor are their states: the column and
+//           the volume with the largest weight determine the cell. No echo enters a value with the
+//           range curve of grid/beam/detection_limit.h.
 // Accuracy  No bound is known, because the errors come from changes of the echo between the
 //           volumes. docs/accuracy.md has the errors measured on held-out volumes.
 // Threads   Pure. The result has the same bits for any number of threads.

@@ -299,7 +299,8 @@ std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key
         table.complain(key, fmt::format("\"{}\" is not a moment: give one of {}", printable(name),
                                         level2::moment_names(" ", " ")));
     } else if (level2::facts_of(*moment).is_categorical) {
-        table.complain(key, fmt::format("{} has classes, which have no mean: it is not gridded",
+        table.complain(key, fmt::format("{} has classes, which have no mean: the service does not "
+                                        "grid it, but `stormcellar grid` does",
                                         level2::moment_name(*moment)));
     }
     return moment;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -248,8 +249,36 @@ TEST(Gridder, RefusesWhatMakesNoSense) {
     EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, std::nan(""), 1, {}, {}}),
               ErrorCode::bad_argument);
     EXPECT_EQ(code(volume, ktlx, {level2::Moment::ref, 0, 0, {}, {}}), ErrorCode::bad_argument);
-    EXPECT_EQ(code(volume, ktlx, {level2::Moment::hca, 0.95, 1, {}, {}}), ErrorCode::bad_argument)
-        << "classes have no mean";
+}
+
+// 2026-11-30: classes were not gridded at all.
+TEST(Gridder, ClassesComeFromTheNearestGate) {
+    SweepPlan classes = plan(0.5, 1);
+    classes.moment = level2::Moment::hca;
+    classes.code = [](int radial, int gate) {  // 40, dry snow, and 60, rain
+        return static_cast<std::uint16_t>((radial / 3 + gate / 5) % 2 == 0 ? 6 : 8);
+    };
+    SweepPlan above = classes;
+    above.elevation_deg = 1.5;
+    above.cut = 2;
+    level2::Volume volume = make_volume({classes, above});
+    for (level2::Sweep& sweep : volume.sweeps) {
+        sweep.moments[0].scale = 0.1F;
+        sweep.moments[0].offset = 2;
+    }
+    const auto geometry =
+        *make_column_geometry(ktlx, default_spec(ktlx.latitude_deg, ktlx.longitude_deg));
+    GridderOptions options;
+    options.moment = level2::Moment::hca;
+    options.method.interpolation = Interpolation::beam_weighted;
+    options.method.cell = CellExtent::area;
+    const auto grid = make_grid(volume, ktlx, *geometry, options);
+    ASSERT_TRUE(grid) << grid.error().message;
+    EXPECT_EQ(grid->provenance.method, "column-nearest");
+    std::set<float> values;
+    for (std::size_t i = 0; i < grid->values.size(); ++i)
+        if (grid->status[i] == CellStatus::value) values.insert(grid->values[i]);
+    EXPECT_EQ(values, (std::set<float>{40, 60}));
 }
 
 TEST(Gridder, KnowsTheBeamOfEachKindOfRadar) {

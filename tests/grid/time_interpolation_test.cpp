@@ -2,6 +2,7 @@
 #include "grid/mosaic/time_interpolation.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,28 @@ TEST(GridAt, NearestIsTheNearerVolumeUntouched) {
     EXPECT_EQ(values_at(149), before);
     EXPECT_EQ(values_at(151), to_dense(pair.after.view()).values);
     EXPECT_EQ(values_at(150), before) << "the earlier of two equally near volumes";
+}
+
+TEST(GridAt, ClassesAreThoseOfTheNearerVolume) {
+    Grid early;
+    early.spec = spec_of(20);
+    early.moment = level2::Moment::hca;
+    early.values.assign(early.spec.cell_count(), 40);  // dry snow
+    early.status.assign(early.spec.cell_count(), CellStatus::value);
+    Grid late = early;
+    late.values.assign(late.values.size(), 90);  // graupel
+    const Quantization codes = default_quantization(level2::Moment::hca);
+    const BrickGrid before = BrickGrid::from(early, codes), after = BrickGrid::from(late, codes);
+    const auto geometry = *make_column_geometry({"KTLX", 35, -97, 300}, early.spec);
+    for (const auto& [second, value] : {std::pair{60.0, 40.0F}, std::pair{240.0, 90.0F}}) {
+        InstantOptions options = options_at(second, TimeMethod::blend);
+        options.moment = level2::Moment::hca;
+        const auto made = grid_at({before.view(), start},
+                                  TimedView{after.view(), at_second(apart_s)}, *geometry, options);
+        ASSERT_TRUE(made);
+        for (const float found : to_dense(made->view()).values)
+            ASSERT_EQ(found, value);
+    }
 }
 
 TEST(GridAt, BlendAtEitherEndIsThatVolume) {

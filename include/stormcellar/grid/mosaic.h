@@ -22,8 +22,9 @@
 //                      else range folded.
 //   nearest            The state and the value of the nearest site that sees the cell. If two sites
 //                      are equally near, the first by name counts. Velocities, toward different
-//                      radars, and PHI, each radar's own offset, allow no other rule. AZSH also
-//                      allows the maximum, in which ambiguous ranks between value and no echo.
+//                      radars, PHI, each radar's own offset, and HCA, classes without a mean, allow
+//                      no other rule. AZSH also allows the maximum, in which ambiguous ranks
+//                      between value and no echo.
 // A cell that no site sees is not seen. With a single site, every cell is as in its partial.
 //
 // Units     Meters for distances; values are in the unit of the moment.

@@ -73,7 +73,7 @@ struct MomentFacts {
     // The measured moment whose gates a derived moment has.
     Moment measured = Moment::vel;
     // True if a value is the number of a class. Such values have no mean, so they are shown sweep
-    // by sweep and are never gridded.
+    // by sweep, and a cell of a grid has the class of the nearest gate.
     bool is_categorical = false;
 };
 

@@ -258,10 +258,10 @@ Result<std::shared_ptr<const grid::BrickGrid>> halved(const grid::BrickView& vie
     if (times < 1 || times > most_halvings) {
         return fail(ErrorCode::bad_argument, "half: 1 to {}, not {}", most_halvings, times);
     }
-    if (by == HalvedBy::mean && level2::is_circular(moment)) {
-        return fail(ErrorCode::bad_argument,
-                    "by: {} lies on a circle and has no mean; ask for by=maximum",
-                    level2::moment_name(moment));
+    const bool has_classes = level2::facts_of(moment).is_categorical;
+    if (by == HalvedBy::mean && (has_classes || level2::is_circular(moment))) {
+        return fail(ErrorCode::bad_argument, "by: {} {} and has no mean; ask for by=maximum",
+                    level2::moment_name(moment), has_classes ? "has classes" : "lies on a circle");
     }
     const bool by_magnitude = level2::facts_of(moment).is_signed;
     std::shared_ptr<const grid::BrickGrid> half = halved_once(view, by, by_magnitude);
