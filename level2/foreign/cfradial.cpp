@@ -144,7 +144,9 @@ void GroupReader::set_marks(const Array& array, Field& field) const {
     if (source.states != nullptr && source.states->shape != array.shape) source.states = nullptr;
     const auto scale = facts.number("level2_scale"), offset = facts.number("level2_offset");
     const bool is_wide = facts.number("level2_word_size") == 16;
-    field.is_own = scale && offset && source.states != nullptr;
+    constexpr double most = 1e9;
+    field.is_own = scale && offset && source.states != nullptr && std::abs(*scale) < most &&
+                   std::abs(*offset) < most;
     if (!field.is_own) {
         source.states = nullptr;
         // A sweep without echo holds no reflectivity, but it was measured.

@@ -31,6 +31,29 @@ Result<PolarFile> read_polar(std::span<const std::byte> bytes, const arrayfile::
                 "is an HDF5 or netCDF file, but neither ODIM_H5 nor CfRadial");
 }
 
+// Leaves out the radials without a direction, and returns their number.
+std::uint64_t drop_lost_radials(PolarFile& file) {
+    std::uint64_t dropped = 0;
+    for (PolarSweep& one : file.sweeps) {
+        std::vector<Radial>& radials = one.sweep.radials;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < radials.size(); ++i) {
+            const bool is_sound = is_within(radials[i].azimuth_deg, 0.0F, 360.0F) &&
+                                  is_within(radials[i].elevation_deg, -90.0F, 90.0F);
+            if (!is_sound) continue;
+            for (MomentSource& source : one.sources)
+                source.rows[kept] = source.rows[i];
+            radials[kept++] = radials[i];
+        }
+        dropped += radials.size() - kept;
+        radials.resize(kept);
+        for (MomentSource& source : one.sources)
+            source.rows.resize(kept);
+    }
+    std::erase_if(file.sweeps, [](const PolarSweep& one) { return one.sweep.radials.empty(); });
+    return dropped;
+}
+
 // Sorts the sweeps by time, and gives numbers and states to sweeps and radials that have none.
 void set_order(PolarFile& file) {
     std::ranges::stable_sort(file.sweeps, {},
@@ -55,6 +78,15 @@ void set_order(PolarFile& file) {
         sweep.radials.back().status = static_cast<std::uint8_t>(
             is_last ? RadialStatus::end_of_volume : RadialStatus::end_of_elevation);
     }
+}
+
+void add(DecodeReport& report, Severity severity, std::string code, std::string message) {
+    if (severity == Severity::error) ++report.errors;
+    Problem problem;
+    problem.severity = severity;
+    problem.code = std::move(code);
+    problem.message = std::move(message);
+    report.problems.push_back(std::move(problem));
 }
 
 // Reads the gates of all sweeps, array by array, because sweeps may share an array.
@@ -120,16 +152,6 @@ class GateReader {
         return {};
     }
 
-    static void add(DecodeReport& report, Severity severity, std::string code,
-                    std::string message) {
-        if (severity == Severity::error) ++report.errors;
-        Problem problem;
-        problem.severity = severity;
-        problem.code = std::move(code);
-        problem.message = std::move(message);
-        report.problems.push_back(std::move(problem));
-    }
-
     void note(DecodeReport& report) {
         if (!file_.source.empty() && file_.source != file_.station)
             add(report, Severity::note, "source",
@@ -180,11 +202,16 @@ Result<Decoded> decode_foreign(std::span<const std::byte> bytes, const Selection
     if (!root) return pass_on(root);
     auto file = read_polar(bytes, *root, most_array_bytes);
     if (!file) return pass_on(file);
+    const std::uint64_t lost = drop_lost_radials(*file);
+    if (file->sweeps.empty()) return fail(ErrorCode::corrupt, "no radial has a direction");
     set_order(*file);
     Decoded decoded;
     decoded.report.container = printable(file->format);
     Status read = GateReader{bytes, *file, selection, most_array_bytes}.read(decoded.report);
     if (!read) return pass_on(read);
+    if (lost > 0)
+        add(decoded.report, Severity::error, "lost_radials",
+            fmt::format("{} radials without a direction are left out", lost));
     Volume& volume = decoded.volume;
     volume.station = file->station.empty() ? fallback_station : file->station;
     volume.block = file->block;

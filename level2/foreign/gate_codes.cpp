@@ -68,7 +68,11 @@ std::optional<Packing> exact_packing(const MomentSource& source, const Span& spa
     packing.scale = static_cast<float>(1 / source.gain);
     packing.offset = static_cast<float>(shift - source.offset / source.gain);
     packing.word_size_bits = top <= static_cast<double>(greatest_short_code) ? 8 : 16;
-    return packing;
+    constexpr float most = 1e9F;  // a damaged file may have any gain
+    const bool is_sound = std::isgreater(packing.scale, 1 / most) &&
+                          std::isless(packing.scale, most) &&
+                          std::isless(std::abs(packing.offset), most);
+    return is_sound ? std::optional{packing} : std::nullopt;
 }
 
 Packing stepped_packing(Moment moment) {

@@ -270,7 +270,9 @@ std::optional<PolarSweep> sweep_of(const Group& root, const Group& dataset, Pola
     const double nyquist_mps = nyquist_of(place);
     // This program's files have the velocities of all rays where they differ.
     auto nyquists_mps = place.numbers("how", "nyquist_velocities");
-    if (nyquists_mps.size() != count) nyquists_mps.assign(count, nyquist_mps);
+    const auto is_odd = [](double mps) { return !(mps >= 0 && mps < 1000); };
+    if (nyquists_mps.size() != count || std::ranges::any_of(nyquists_mps, is_odd))
+        nyquists_mps.assign(count, nyquist_mps);
     // Rays are in the order of azimuth; radials are in the order of time. Clocks may be coarse, so
     // rays of the same time stay in the order in which the antenna turns.
     std::vector<std::size_t> order(count);

@@ -1,5 +1,7 @@
 #include "level2/foreign/cfradial.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,6 +121,25 @@ TEST(CfRadial, ReadsRaysOfDifferentLengths) {
     EXPECT_EQ(first.status(1, 1), GateStatus::no_data);
     const SweepMoment& second = *volume.sweeps.at(1).find(Moment::ref);
     EXPECT_FLOAT_EQ(second.value_of(second.code(0, 1)), 31);
+}
+
+TEST(CfRadial, LeavesRaysWithoutADirectionOut) {
+    NetcdfWriter file{NC_NETCDF4};
+    begin_cfradial(file);
+    add_fields(file);
+    std::vector<std::byte> bytes = file.bytes();
+    // Makes the azimuth of the second ray, 40 degrees, no number.
+    const std::byte degrees_40[] = {std::byte{0}, std::byte{0}, std::byte{0x20}, std::byte{0x42}};
+    const auto at =
+        std::search(bytes.begin(), bytes.end(), std::begin(degrees_40), std::end(degrees_40));
+    ASSERT_NE(at, bytes.end());
+    std::fill_n(at, 4, std::byte{0xFF});
+    const auto made = decode(bytes);
+    ASSERT_TRUE(made) << made.error().message;
+    ASSERT_EQ(made->volume.sweeps[0].radials.size(), 1U);
+    EXPECT_EQ(made->volume.sweeps[0].find(Moment::ref)->gate_counts.size(), 1U);
+    EXPECT_EQ(made->report.problems.back().code, "lost_radials");
+    EXPECT_TRUE(made->report.damaged);
 }
 
 TEST(CfRadial, LeavesVerticalSectionsOut) {

@@ -1,5 +1,6 @@
 // Damaged files of other formats give a whole volume or an error, and never take much memory.
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -38,9 +39,16 @@ std::vector<std::byte> cfradial_file(int mode) {
 void expect_whole(const Volume& volume) {
     for (const Sweep& sweep : volume.sweeps) {
         ASSERT_FALSE(sweep.radials.empty());
+        for (const Radial& radial : sweep.radials) {
+            ASSERT_TRUE(radial.azimuth_deg >= 0 && radial.azimuth_deg <= 360);
+            ASSERT_TRUE(std::abs(radial.elevation_deg) <= 90);
+            ASSERT_TRUE(std::isfinite(radial.nyquist_mps));
+        }
         for (const SweepMoment& moment : sweep.moments) {
             ASSERT_EQ(moment.gate_counts.size(), sweep.radials.size());
-            ASSERT_LE(*std::ranges::max_element(moment.gate_counts), moment.gate_stride);
+            ASSERT_GT(moment.gate_stride, 0);
+            ASSERT_EQ(*std::ranges::max_element(moment.gate_counts), moment.gate_stride);
+            ASSERT_TRUE(std::isfinite(moment.scale) && std::isfinite(moment.offset));
             ASSERT_EQ(moment.codes8.size() + moment.codes16.size(),
                       sweep.radials.size() * static_cast<std::size_t>(moment.gate_stride));
         }
