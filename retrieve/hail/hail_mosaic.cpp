@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "stormcellar/grid/grid_window.h"
+
 namespace stormcellar::retrieve {
 
 HailMosaic::HailMosaic(grid::GridSpec spec, HailLayers layers)
@@ -17,25 +19,32 @@ Result<HailMosaic> HailMosaic::make(const grid::GridSpec& spec, const FreezingLe
 }
 
 Status HailMosaic::add(const grid::Grid& radar, grid::Grid& mosaic) {
-    if (!(radar.spec == spec_) || !(mosaic.spec == spec_))
+    const auto window = grid::window_of(spec_, radar.spec);
+    if (!window || !(mosaic.spec == spec_))
         return fail(ErrorCode::bad_argument, "the hail of radars on different grids cannot merge");
-    const std::size_t levels = spec_.levels_m.size();
-    std::vector<float> dbz(levels);
-    for (std::size_t column = 0; column < largest_shi_.size(); ++column) {
-        const std::size_t first = column * levels;
-        for (std::size_t i = 0; i < levels; ++i) {
-            dbz[i] = radar.status[first + i] == grid::CellStatus::value
-                         ? radar.values[first + i]
-                         : std::numeric_limits<float>::quiet_NaN();
-        }
-        const float shi = hail_of_column(layers_, dbz).shi_j_per_m_s;
-        if (!(shi > largest_shi_[column])) continue;
-        largest_shi_[column] = shi;
-        const auto from = static_cast<std::ptrdiff_t>(first);
-        std::copy_n(radar.values.begin() + from, levels, mosaic.values.begin() + from);
-        std::copy_n(radar.status.begin() + from, levels, mosaic.status.begin() + from);
-    }
+    for (int iy = 0; iy < window->ny; ++iy)
+        for (int ix = 0; ix < window->nx; ++ix)
+            add_column(radar, radar.spec.index(ix, iy, 0), mosaic,
+                       spec_.index(window->first_x + ix, window->first_y + iy, 0));
     return {};
+}
+
+void HailMosaic::add_column(const grid::Grid& radar, std::size_t from, grid::Grid& mosaic,
+                            std::size_t to) {
+    const std::size_t levels = spec_.levels_m.size();
+    dbz_.resize(levels);
+    for (std::size_t i = 0; i < levels; ++i) {
+        dbz_[i] = radar.status[from + i] == grid::CellStatus::value
+                      ? radar.values[from + i]
+                      : std::numeric_limits<float>::quiet_NaN();
+    }
+    float& largest = largest_shi_[to / levels];
+    const float shi = hail_of_column(layers_, dbz_).shi_j_per_m_s;
+    if (!(shi > largest)) return;
+    largest = shi;
+    const auto source = static_cast<std::ptrdiff_t>(from), place = static_cast<std::ptrdiff_t>(to);
+    std::copy_n(radar.values.begin() + source, levels, mosaic.values.begin() + place);
+    std::copy_n(radar.status.begin() + source, levels, mosaic.status.begin() + place);
 }
 
 }  // namespace stormcellar::retrieve

@@ -14,6 +14,7 @@
 // Threads   One thread at a time.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -28,15 +29,20 @@ class HailMosaic {
     [[nodiscard]] static Result<HailMosaic> make(const grid::GridSpec& spec,
                                                  const FreezingLevels& levels);
     // Copies into the mosaic those columns in which this radar has more hail than the radars before
-    // it. Both are grids of reflectivity. Errors: bad_argument if a grid has other cells.
+    // it. Both are grids of reflectivity; that of the radar may be a window of the mosaic. Errors:
+    // bad_argument if a grid has other cells.
     [[nodiscard]] Status add(const grid::Grid& radar, grid::Grid& mosaic);
 
   private:
     HailMosaic(grid::GridSpec spec, HailLayers layers);
 
+    // Copies a column that begins at cell `from` of the radar to cell `to`, if it has more hail.
+    void add_column(const grid::Grid& radar, std::size_t from, grid::Grid& mosaic, std::size_t to);
+
     grid::GridSpec spec_;
     HailLayers layers_;
     std::vector<float> largest_shi_;  // of each column
+    std::vector<float> dbz_;          // of one column
 };
 
 }  // namespace stormcellar::retrieve
