@@ -83,6 +83,29 @@ TEST_F(Overlays, AreReadAgainWhenAFileChangesOrComes) {
     EXPECT_EQ(collection()["features"].size(), 0U);
 }
 
+// The same bytes in memory answer again and again, until a file changes.
+TEST_F(Overlays, AreCompressedOnce) {
+    std::string line = R"({"type": "LineString", "coordinates": [[1, 2])";
+    for (int i = 0; i < 1000; ++i)
+        line += ", [1, 2]";
+    write("a.geojson", line + "]}");
+    const ServedOverlays served({{"warnings", directory_ / "warnings"}});
+    const auto sent = [&](Coding coding) { return served.geojson("warnings", coding)->value(); };
+    const SentOverlay first = sent(Coding::gzip);
+    EXPECT_EQ(first.coding, Coding::gzip);
+    EXPECT_LT(first.bytes->size(), sent(Coding::identity).bytes->size() / 4);
+    EXPECT_EQ(sent(Coding::gzip).bytes, first.bytes) << "compressed once more";
+    EXPECT_NE(sent(Coding::zstd).etag, first.etag);
+    write("a.geojson", line + ", [3, 4]]}");
+    EXPECT_NE(sent(Coding::gzip).etag, first.etag);
+    EXPECT_NE(sent(Coding::gzip).bytes, first.bytes);
+    std::filesystem::remove(directory_ / "warnings" / "a.geojson");
+    EXPECT_EQ(sent(Coding::gzip).coding, Coding::identity) << "short texts are not compressed";
+    const Answer answer = asked(door_, "/overlays/warnings.geojson",
+                                {{"If-None-Match", sent(Coding::identity).etag}});
+    EXPECT_EQ(answer.status, 304U);
+}
+
 TEST_F(Overlays, WhatIsTooMuchIsLeftOut) {
     std::string line = R"({"type": "LineString", "coordinates": [[1, 2])";
     for (int i = 0; i < 150'000; ++i)

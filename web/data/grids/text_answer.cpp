@@ -8,12 +8,6 @@
 #include "web/data/grids/compressed.h"
 
 namespace stormcellar::web {
-namespace {
-
-// A smaller text is not compressed, because it fits into one packet together with the headers.
-constexpr std::size_t least_compressed_text = 1024;
-
-}  // namespace
 
 Answer text_answer_to(const Request& request, std::string content_type, std::string text,
                       Fields headers) {

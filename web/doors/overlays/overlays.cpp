@@ -1,6 +1,7 @@
 #include "web/doors/overlays/overlays.h"
 
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -21,8 +22,16 @@ Answer OverlaysDoor::answer(const Request& request) {
     std::string_view name = path[1];
     if (path.size() == 2 && name.ends_with(ending)) {
         name.remove_suffix(ending.size());
-        if (const auto text = overlays_.geojson(name))
-            return text_answer_to(request, "application/geo+json", **text);
+        if (const auto found = overlays_.geojson(name, coding_for(request))) {
+            if (!*found) return json_error(found->error());
+            Entity entity;
+            entity.bytes = {(*found)->bytes};
+            entity.content_type = "application/geo+json";
+            entity.etag = (*found)->etag;
+            entity.coding = coding_name((*found)->coding);
+            entity.varies = true;
+            return answer_with(request, std::move(entity));
+        }
     }
     return sentence(404, "There are /overlays and /overlays/NAME.geojson here.");
 }

@@ -1,13 +1,16 @@
 #include "web/doors/overlays/served_overlays.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/checksum.h"
 #include "base/printable.h"
 #include "render/overlay/shape_file.h"
+#include "web/data/grids/text_answer.h"
 
 namespace stormcellar::web {
 namespace {
@@ -71,6 +74,10 @@ ordered_json feature_of(const render::OverlayShape& shape) {
              {{"type", is_point ? "Point" : "LineString"}, {"coordinates", std::move(places)}}}};
 }
 
+constexpr std::size_t index_of(Coding coding) {
+    return static_cast<std::size_t>(coding);
+}
+
 std::size_t points_of(const render::ShapeOverlay& shapes) {
     std::size_t points = 0;
     for (const render::OverlayShape& shape : shapes.shapes)
@@ -121,7 +128,8 @@ std::vector<std::string> ServedOverlays::names() const {
     return names;
 }
 
-std::optional<Text> ServedOverlays::geojson(std::string_view name) const {
+std::optional<Result<SentOverlay>> ServedOverlays::geojson(std::string_view name,
+                                                           Coding coding) const {
     const auto found = std::ranges::find_if(
         overlays_, [name](const auto& overlay) { return overlay->configured.name == name; });
     if (found == overlays_.end()) return std::nullopt;
@@ -129,11 +137,23 @@ std::optional<Text> ServedOverlays::geojson(std::string_view name) const {
     const auto files = files_of(overlay.configured);
     std::string stamp = stamp_of(files);
     const MutexLock lock(overlay.mutex);
-    if (overlay.text == nullptr || overlay.stamp != stamp) {
-        overlay.text = text_of(made_of(files));
+    const Text& whole = overlay.texts[index_of(Coding::identity)];
+    if (whole == nullptr || overlay.stamp != stamp) {
+        overlay.texts = {text_of(made_of(files))};
+        overlay.hash = fmt::format("{:016x}", xxh3_64(std::as_bytes(std::span(*whole))));
         overlay.stamp = std::move(stamp);
     }
-    return overlay.text;
+    if (whole->size() < least_compressed_text) coding = Coding::identity;
+    Text& sent = overlay.texts[index_of(coding)];
+    if (sent == nullptr) {
+        auto bytes = compressed(*whole, coding);
+        if (!bytes) return pass_on(bytes);
+        sent = text_of(std::move(*bytes));
+    }
+    const bool is_whole = coding == Coding::identity;
+    return SentOverlay{
+        sent, fmt::format("\"{}{}{}\"", overlay.hash, is_whole ? "" : "-", coding_name(coding)),
+        coding};
 }
 
 }  // namespace stormcellar::web

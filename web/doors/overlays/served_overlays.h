@@ -3,7 +3,8 @@
 //
 // An overlay is a file of GeoJSON or a placefile (render/overlay/shape_file.h), or a directory of
 // such files. The directory's files are read in the order of their names; names that begin with a
-// dot, and directories in it, are left out. The text is made again when a file has changed.
+// dot, and directories in it, are left out. The text is made and compressed again when a file has
+// changed.
 //
 // An overlay has at most a quarter of a million points, from at most 256 files; further files are
 // left out.
@@ -13,10 +14,11 @@
 // cannot be read, with the reason; the other files are served all the same.
 //
 // Threads   Many threads may use it. One makes the text of an overlay, and others that want the
-// same
-//           overlay wait.
+//           same overlay wait.
+// Errors    Those of compressed().
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,10 +27,19 @@
 #include <vector>
 
 #include "stormcellar/base/mutex.h"
+#include "stormcellar/base/result.h"
 #include "web/config/web_config.h"
+#include "web/data/grids/compressed.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
+
+// An overlay as it is sent.
+struct SentOverlay {
+    Text bytes;
+    std::string etag;  // with quotes
+    Coding coding;     // identity for a short text
+};
 
 class ServedOverlays {
   public:
@@ -38,7 +49,8 @@ class ServedOverlays {
 
     [[nodiscard]] std::vector<std::string> names() const;
     // Returns the overlay of this name as GeoJSON; none if there is no such overlay.
-    [[nodiscard]] std::optional<Text> geojson(std::string_view name) const;
+    [[nodiscard]] std::optional<Result<SentOverlay>> geojson(std::string_view name,
+                                                             Coding coding) const;
 
   private:
     struct Overlay {
@@ -46,7 +58,8 @@ class ServedOverlays {
         const ConfiguredOverlay configured;
         Mutex mutex;
         std::string stamp STORMCELLAR_GUARDED_BY(mutex);  // names, sizes and times of the files
-        Text text STORMCELLAR_GUARDED_BY(mutex);
+        std::array<Text, 3> texts STORMCELLAR_GUARDED_BY(mutex);  // by coding; null: not made
+        std::string hash STORMCELLAR_GUARDED_BY(mutex);           // of the text, as hex digits
     };
     std::vector<std::unique_ptr<Overlay>> overlays_;
 };
