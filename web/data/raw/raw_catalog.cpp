@@ -54,6 +54,7 @@ RawVolume volume_of(const CatalogEntry& entry) {
     volume.start = *entry.volume.start_time;
     volume.grows = !catalog::has_final_hash(entry);
     volume.is_complete = entry.volume.complete && !volume.grows;
+    volume.number = entry.volume.volume_number;
     return volume;
 }
 

@@ -55,8 +55,9 @@ struct RawVolume {
     std::string station;
     std::string name;
     UtcTime start{};
-    bool grows = false;        // more will come; size and tag are present values
-    bool is_complete = false;  // was decoded, and nothing is missing
+    bool grows = false;         // more will come; size and tag are present values
+    bool is_complete = false;   // was decoded, and nothing is missing
+    std::optional<int> number;  // that the radar gave the volume; usually 1 to 999
     // The fields below are set by open(), and by list() if RawRange::with_sizes is set.
     std::uint64_t size_bytes = 0;
     UtcTime modified{};

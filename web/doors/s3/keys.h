@@ -35,16 +35,27 @@ struct S3Object {
     RawVolume volume;
 };
 
-// The bucket during one list. The stations are read once, at the first query.
-class S3Keys {
+// A bucket during one list.
+class S3Walk {
   public:
-    explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
-
+    virtual ~S3Walk() = default;
     // Returns at most `most` objects, from the first key that is not less than `from`, with keys
     // less than `end` (empty: no bound). If `most` is above 1, the result may be shorter although
-    // more objects follow; only an empty result means that there are no more.
+    // more objects follow; only an empty result means that there are no more. If `most` is 1, the
+    // object may lack its size, time and tag, which complete() adds.
+    [[nodiscard]] virtual Result<std::vector<S3Object>> between(std::string_view from,
+                                                                std::string_view end,
+                                                                std::size_t most) = 0;
+    virtual Status complete(S3Object& object) = 0;
+};
+
+// The bucket of volumes. The stations are read once, at the first query.
+class S3Keys final : public S3Walk {
+  public:
+    explicit S3Keys(std::shared_ptr<RawFiles> files) : files_(std::move(files)) {}
     [[nodiscard]] Result<std::vector<S3Object>> between(std::string_view from, std::string_view end,
-                                                        std::size_t most);
+                                                        std::size_t most) override;
+    Status complete(S3Object& /*object*/) override { return {}; }
 
   private:
     using Stations = std::vector<std::string>;  // sorted

@@ -50,7 +50,7 @@ std::string encoded_key(std::string_view key, const S3ListOptions& options) {
 // Collects the entries of one listing.
 class S3Lister {
   public:
-    S3Lister(S3Keys& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
+    S3Lister(S3Walk& keys, const S3ListOptions& options) : keys_(keys), options_(options) {
         place_ = std::max(options.prefix, options.after);
         end_ = behind_all(options.prefix);
         // If the previous answer ended with a common prefix, skip all keys below it.
@@ -66,10 +66,10 @@ class S3Lister {
         while (!is_over_) {
             // If the list has common prefixes, one key of each is enough.
             const std::size_t wanted = skips_ ? 1 : options_.most - count() + 1;
-            const auto batch = keys_.between(place_, end_, wanted);
+            auto batch = keys_.between(place_, end_, wanted);
             if (!batch) return pass_on(batch);
             if (batch->empty()) break;
-            take(*batch);
+            if (Status taken = take(std::move(*batch)); !taken) return pass_on(taken);
         }
         return std::move(listing_);
     }
@@ -78,16 +78,16 @@ class S3Lister {
     [[nodiscard]] std::size_t count() const {
         return listing_.objects.size() + listing_.common_prefixes.size();
     }
-    void take(const std::vector<S3Object>& batch) {
-        for (const S3Object& object : batch) {
+    Status take(std::vector<S3Object> batch) {
+        for (S3Object& object : batch) {
             if (!object.key.starts_with(options_.prefix)) {
                 is_over_ = true;
-                return;
+                return {};
             }
             if (count() == options_.most) {
                 listing_.next = last_;
                 is_over_ = true;
-                return;
+                return {};
             }
             if (const std::string common = common_prefix_of(object.key, options_);
                 !common.empty()) {
@@ -95,16 +95,18 @@ class S3Lister {
                 last_ = common;
                 place_ = behind_all(common);
                 skips_ = true;
-                return;
+                return {};
             }
-            listing_.objects.push_back(object);
+            if (Status complete = keys_.complete(object); !complete) return complete;
             last_ = object.key;
             place_ = object.key + std::string(1, '\0');
+            listing_.objects.push_back(std::move(object));
             skips_ = false;
         }
+        return {};
     }
 
-    S3Keys& keys_;
+    S3Walk& keys_;
     const S3ListOptions& options_;
     S3Listing listing_;
     std::string place_, end_, last_;
@@ -157,7 +159,7 @@ Result<S3ListOptions> read_s3_list_options(const Request& request) {
     return options;
 }
 
-Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options) {
+Result<S3Listing> list_s3_objects(S3Walk& keys, const S3ListOptions& options) {
     if (options.most == 0) return S3Listing{};
     return S3Lister(keys, options).list();
 }

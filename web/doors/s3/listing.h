@@ -1,7 +1,7 @@
 // web/doors/s3/listing.h -- answers ListObjects and ListObjectsV2 for the volumes of a bucket.
 //
 // Threads   Functions without state.
-// Errors    bad_argument for parameters that make no sense, and those of S3Keys.
+// Errors    bad_argument for parameters that make no sense, and those of S3Walk.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ struct S3Listing {
     std::vector<std::string> common_prefixes;
     std::string next;  // the last entry if more follow; else empty
 };
-[[nodiscard]] Result<S3Listing> list_s3_objects(S3Keys& keys, const S3ListOptions& options);
+[[nodiscard]] Result<S3Listing> list_s3_objects(S3Walk& keys, const S3ListOptions& options);
 
 // Returns the document ListBucketResult.
 [[nodiscard]] std::string s3_listing_xml(std::string_view bucket, const S3ListOptions& options,

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "web/data/grids/text_answer.h"
 #include "web/doors/raw/raw_answers.h"
+#include "web/doors/s3/chunks.h"
 #include "web/doors/s3/listing.h"
 #include "web/doors/xml_writer.h"
 
@@ -16,6 +20,7 @@ namespace {
 constexpr std::string_view public_bucket = "unidata-nexrad-level2";
 // The name of the public bucket until 2025, which older clients use.
 constexpr std::string_view earlier_public_bucket = "noaa-nexrad-level2";
+constexpr std::string_view chunks_ending = "-chunks";
 
 Answer s3_xml_answer(unsigned status, std::string text) {
     Answer answer = text_answer(status, "application/xml", std::move(text));
@@ -51,6 +56,19 @@ Answer missing_object(const RawFailure& failure, const Request& request) {
             break;
     }
     return s3_error(404, "NoSuchKey", "The specified key does not exist.", request);
+}
+
+Answer s3_object_answer(const Request& request, Entity entity) {
+    const std::uint64_t size = size_of(entity.bytes);
+    Answer answer = answer_with(request, std::move(entity));
+    if (answer.status == 416) {
+        Answer error =
+            s3_error(416, "InvalidRange", "The object has no byte in this range.", request);
+        return error.with("Content-Range", fmt::format("bytes */{}", size));
+    }
+    if (answer.status == 412)
+        return s3_error(412, "PreconditionFailed", "The object is not the one asked for.", request);
+    return answer;
 }
 
 // Parameters that ask for something other than a list or the bytes of an object.
@@ -111,14 +129,21 @@ bool S3Door::is_bucket(std::string_view name) const {
     return name == bucket_ || (bucket_ == public_bucket && name == earlier_public_bucket);
 }
 
+bool S3Door::is_chunk_bucket(std::string_view name) const {
+    return name.ends_with(chunks_ending) &&
+           is_bucket(name.substr(0, name.size() - chunks_ending.size()));
+}
+
 Answer S3Door::answer(const Request& request) {
     const S3Path path = s3_path_of(request.path);
     if (path.bucket.empty()) return buckets_answer();
-    if (!is_bucket(path.bucket)) {
+    const bool has_chunks = is_chunk_bucket(path.bucket);
+    if (!has_chunks && !is_bucket(path.bucket)) {
         return s3_error(404, "NoSuchBucket", "The specified bucket does not exist.", request);
     }
     if (auto refused = refused_resource(request)) return *std::move(refused);
-    return path.key.empty() ? bucket_answer(request) : object_answer(request, path.key);
+    if (path.key.empty()) return bucket_answer(request);
+    return has_chunks ? chunk_answer(request, path.key) : object_answer(request, path.key);
 }
 
 Answer S3Door::buckets_answer() const {
@@ -152,11 +177,13 @@ Answer S3Door::bucket_answer(const Request& request) const {
 Answer S3Door::list_answer(const Request& request) const {
     const auto options = read_s3_list_options(request);
     if (!options) return s3_error(options.error(), request);
-    S3Keys keys(files_);
+    const std::string_view bucket = s3_path_of(request.path).bucket;
+    S3Keys volumes(files_);
+    S3ChunkKeys chunks(files_);
+    S3Walk& keys = is_chunk_bucket(bucket) ? static_cast<S3Walk&>(chunks) : volumes;
     const auto listing = list_s3_objects(keys, *options);
     if (!listing) return s3_error(listing.error(), request);
-    return text_answer_to(request, "application/xml",
-                          s3_listing_xml(s3_path_of(request.path).bucket, *options, *listing));
+    return text_answer_to(request, "application/xml", s3_listing_xml(bucket, *options, *listing));
 }
 
 Answer S3Door::object_answer(const Request& request, std::string_view text) const {
@@ -164,15 +191,30 @@ Answer S3Door::object_answer(const Request& request, std::string_view text) cons
     if (!key) return missing_object({}, request);
     const auto opened = files_->open(key->station, key->name);
     if (!opened) return missing_object(opened.error(), request);
-    Answer answer = answer_with(request, entity_of(*opened));
-    if (answer.status == 416) {
-        Answer error =
-            s3_error(416, "InvalidRange", "The object has no byte in this range.", request);
-        return error.with("Content-Range", fmt::format("bytes */{}", opened->volume.size_bytes));
+    return s3_object_answer(request, entity_of(*opened));
+}
+
+Answer S3Door::chunk_answer(const Request& request, std::string_view text) const {
+    const auto key = parse_s3_chunk_key(text);
+    if (!key) return missing_object({}, request);
+    RawRange range;
+    range.from = key->start;
+    range.to = key->start + std::chrono::milliseconds{999};
+    const auto volumes = files_->list(key->station, range);
+    if (!volumes) return s3_error(volumes.error(), request);
+    for (const RawVolume& volume : *volumes) {
+        if (volume.number != key->volume) continue;
+        const auto opened = files_->open(volume.station, volume.name);
+        if (!opened) return missing_object(opened.error(), request);
+        for (const VolumeChunk& chunk : chunks_of(*opened)) {
+            if (chunk.number != key->number || chunk.kind != key->kind) continue;
+            Entity entity = entity_of(*opened);
+            entity.bytes = part_of(opened->bytes, chunk.offset, chunk.size);
+            entity.etag = chunk_tag(opened->volume, chunk);
+            return s3_object_answer(request, std::move(entity));
+        }
     }
-    if (answer.status == 412)
-        return s3_error(412, "PreconditionFailed", "The object is not the one asked for.", request);
-    return answer;
+    return missing_object({}, request);
 }
 
 }  // namespace stormcellar::web

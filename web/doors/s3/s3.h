@@ -5,8 +5,9 @@
 //   /s3/BUCKET, /s3/BUCKET/            HeadBucket, GetBucketLocation (?location), ListObjects and
 //                                      ListObjectsV2 (?list-type=2)
 //   /s3/BUCKET/YYYY/MM/DD/STATION/NAME GetObject, HeadObject
+//   /s3/BUCKET-chunks                  the same, with the chunks of volumes (web/doors/s3/chunks.h)
 //
-// Objects have the keys of the public bucket. The server ignores signatures, because everybody who
+// Objects have the keys of the public buckets. The server ignores signatures, because everybody who
 // reaches it may read. Errors are XML, with the codes of S3. An ETag contains '-', so that no
 // client takes it for the MD5 of the object.
 //
@@ -38,10 +39,13 @@ class S3Door final : public Door {
   private:
     // Returns true for the bucket's name. The public bucket has its earlier name, too.
     [[nodiscard]] bool is_bucket(std::string_view name) const;
+    // Returns true for the name of the bucket of chunks.
+    [[nodiscard]] bool is_chunk_bucket(std::string_view name) const;
     [[nodiscard]] Answer buckets_answer() const;
     [[nodiscard]] Answer bucket_answer(const Request& request) const;
     [[nodiscard]] Answer list_answer(const Request& request) const;
     [[nodiscard]] Answer object_answer(const Request& request, std::string_view key) const;
+    [[nodiscard]] Answer chunk_answer(const Request& request, std::string_view key) const;
     const std::shared_ptr<RawFiles> files_;
     const std::string bucket_;
 };
