@@ -18,7 +18,7 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr std::size_t header_bytes = 24, length_bytes = 4;
+constexpr std::size_t volume_header_bytes = 24, record_length_bytes = 4;
 constexpr int last_volume = 999, last_chunk = 999;
 constexpr std::size_t longest_number = 3;
 
@@ -42,16 +42,16 @@ bool read_at(const Pieces& pieces, std::uint64_t offset, std::span<char> into) {
 // Returns the length of the record that begins at this byte: its control word and its bzip2 stream.
 // Returns none if no record begins there.
 std::optional<std::uint64_t> record_at(const Pieces& pieces, std::uint64_t offset) {
-    std::array<char, length_bytes + 3> begin{};
+    std::array<char, record_length_bytes + 3> begin{};
     if (!read_at(pieces, offset, begin)) return std::nullopt;
-    if (std::string_view{begin.data() + length_bytes, 3} != "BZh") return std::nullopt;
+    if (std::string_view{begin.data() + record_length_bytes, 3} != "BZh") return std::nullopt;
     std::uint32_t word = 0;
-    for (std::size_t i = 0; i < length_bytes; ++i)
+    for (std::size_t i = 0; i < record_length_bytes; ++i)
         word = word << 8 | static_cast<unsigned char>(begin[i]);
     // The last record of a volume has a negative length.
     const std::int64_t length = std::abs(std::int64_t{static_cast<std::int32_t>(word)});
     if (length > static_cast<std::int64_t>(level2::longest_record_bytes)) return std::nullopt;
-    return length_bytes + static_cast<std::uint64_t>(length);
+    return record_length_bytes + static_cast<std::uint64_t>(length);
 }
 
 std::string volume_prefix(const RawVolume& volume) {
@@ -60,13 +60,13 @@ std::string volume_prefix(const RawVolume& volume) {
     return fmt::format("{}/{}/{}-", volume.station, *volume.number, time);
 }
 
-std::string chunk_key(const RawVolume& volume, int number, level2::ChunkKind kind) {
+std::string s3_chunk_key(const RawVolume& volume, int number, level2::ChunkKind kind) {
     constexpr std::string_view letters = "SIE";
     return fmt::format("{}{:03}-{}", volume_prefix(volume), number,
                        letters[static_cast<std::size_t>(kind)]);
 }
 
-std::optional<int> number_of(std::string_view text, int most) {
+std::optional<int> chunk_number_of(std::string_view text, int most) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool is_number = error == std::errc{} && end == text.data() + text.size() &&
@@ -84,11 +84,11 @@ bool has_records(const RawVolume& volume) {
 
 std::vector<VolumeChunk> chunks_of(const OpenedVolume& volume) {
     std::vector<VolumeChunk> chunks;
-    std::array<char, length_bytes> begin{};
+    std::array<char, record_length_bytes> begin{};
     if (!read_at(volume.bytes, 0, begin) || std::string_view{begin.data(), begin.size()} != "AR2V")
         return chunks;
     const std::uint64_t whole = size_of(volume.bytes);
-    std::uint64_t at = header_bytes;
+    std::uint64_t at = volume_header_bytes;
     while (chunks.size() < last_chunk) {
         const auto length = record_at(volume.bytes, at);
         if (!length || at + *length > whole) break;
@@ -115,7 +115,7 @@ std::optional<S3ChunkKey> parse_s3_chunk_key(std::string_view key) {
     const auto segments = segments_of(key);
     if (segments.size() != 3 || key.front() == '/' || key.back() == '/') return std::nullopt;
     const auto name = level2::parse_chunk_name(segments[2]);
-    const auto volume = number_of(segments[1], last_volume);
+    const auto volume = chunk_number_of(segments[1], last_volume);
     if (!name || !volume || name->number > last_chunk) return std::nullopt;
     std::string time = name->volume;
     std::ranges::replace(time, '-', '_');
@@ -127,7 +127,7 @@ std::optional<S3ChunkKey> parse_s3_chunk_key(std::string_view key) {
     named.station = parsed.station;
     named.number = parsed.volume;
     named.start = parsed.start;
-    if (chunk_key(named, parsed.number, parsed.kind) != key) return std::nullopt;
+    if (s3_chunk_key(named, parsed.number, parsed.kind) != key) return std::nullopt;
     return parsed;
 }
 
@@ -153,7 +153,7 @@ std::vector<S3Object> S3ChunkKeys::of_volume(const RawVolume& volume) const {
     const auto opened = files_->open(volume.station, volume.name);
     if (!opened) return objects;
     for (const VolumeChunk& chunk : chunks_of(*opened)) {
-        S3Object object{chunk_key(volume, chunk.number, chunk.kind), opened->volume};
+        S3Object object{s3_chunk_key(volume, chunk.number, chunk.kind), opened->volume};
         object.volume.tag = chunk_tag(opened->volume, chunk);
         object.volume.size_bytes = chunk.size;
         objects.push_back(std::move(object));
@@ -180,7 +180,7 @@ Result<std::vector<S3Object>> S3ChunkKeys::between(std::string_view from, std::s
             if (is_behind(prefix)) break;
             if (prefix < from && !from.starts_with(prefix)) continue;
             // A list of directories needs one key of each, so do not open the volumes.
-            std::string first = chunk_key(volume, 1, level2::ChunkKind::start);
+            std::string first = s3_chunk_key(volume, 1, level2::ChunkKind::start);
             if (most == 1 && from <= first && !is_behind(first))
                 return std::vector<S3Object>{{std::move(first), volume}};
             std::vector<S3Object> objects = of_volume(volume);
