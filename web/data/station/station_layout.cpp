@@ -11,7 +11,7 @@
 namespace stormcellar::web {
 namespace {
 
-constexpr const char* milliseconds = "milliseconds since 1970-01-01T00:00:00Z";
+constexpr const char* since_1970 = "milliseconds since 1970-01-01T00:00:00Z";
 constexpr std::string_view status_ending = "_status";
 constexpr const char* speed_unit = "meters per seconds";
 
@@ -35,7 +35,7 @@ ZarrJson attributes_of(RadialFact fact) {
     switch (fact) {
         case RadialFact::time:
             return {{"standard_name", "time"},
-                    {"units", milliseconds},
+                    {"units", since_1970},
                     {"calendar", "proleptic_gregorian"},
                     {"_FillValue", no_time_ms}};
         case RadialFact::azimuth:
@@ -100,7 +100,7 @@ void add_axes(ZarrGroup& group, const SweepPlace& place, std::size_t times) {
     ZarrArray time = array_of("vcp_time", ZarrNumber::int64, {"vcp_time"}, {times},
                               {{"standard_name", "time"},
                                {"long_name", "Start of the volume"},
-                               {"units", milliseconds},
+                               {"units", since_1970},
                                {"calendar", "proleptic_gregorian"}});
     time.chunk = {times_of_a_chunk};
     group.arrays.push_back(std::move(time));
