@@ -67,7 +67,7 @@ export default defineConfig({
   projects: [
     {
       name: 'storms',
-      testMatch: /(look|flat|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|stills|glance|cells|access)\.spec\.mjs/,
+      testMatch: /(look|flat|panes|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|stills|glance|cells|access)\.spec\.mjs/,
       grepInvert: /@sequence/,
       use: { volumes: storms },
     },

@@ -31,7 +31,7 @@ function begin(): void {
     const app = new App(new Loader(new Budget(stateOf(location.hash).memoryMib * 2 ** 20, mostTexels), mostTexels));
     const drawing = new Drawing(app, renderer, picture);
     const keys = new Keys(app, drawing);
-    new Fitting(app, picture);
+    new Fitting(app, drawing);
     const facts = new FactsOfShown(app);
     const pointers = new Pointers(app, drawing);
     addChoices(app, drawing, facts);

@@ -217,7 +217,7 @@ test('a window that failed is asked for again, and a frame waits for it', async 
     const failures: string[] = [];
     const windows = new Windows(
         decoder,
-        256e6,
+        () => 256e6,
         () => undefined,
         (error) => void failures.push(String(error)),
     );

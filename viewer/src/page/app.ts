@@ -7,6 +7,8 @@ import { Camera } from '../camera/geometry';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { CutNumber } from '../fields/sweep_choice';
 import { Stance, elsewhere, switched } from '../scene/flat_view';
+import { Layers } from '../scene/layers';
+import { PaneView, withLayers, withPanes } from '../scene/panes';
 import { ViewState, addressOf, usualState } from '../scene/view_state';
 import { ColorTable } from '../wire/color_tables';
 import { PlayerState, stopped } from '../time/player';
@@ -65,8 +67,10 @@ export class App {
     // Fetches the data that a picture of `next` needs besides its grid. Returns a promise that resolves when the data
     // have come, or null if they are here. The shown picture stays until then.
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
+    // Returns the grids that the other panes show beside `next`, the grid of the active pane.
+    beside: (next: Shown) => readonly (Shown | null)[] = () => [];
     isShownWhole: () => boolean = () => true; // returns true if all layers of the picture have come
-    repeats: LayerMaker['repeats'] = () => null;
+    repeats: (pane?: number) => ReturnType<LayerMaker['repeats']> = () => null;
     nextCut: CutNumber | undefined = undefined; // number of the sweep in the next picture; undefined: as in this one
     isGraphicsLost = false; // the WebGL context is lost
     readonly server = new ServerState(() => this.tell('notice'));
@@ -151,6 +155,17 @@ export class App {
         else this.addressBar.write();
         this.tell('view');
     }
+    // Shows these panes. The active one must show the moment of `shown`, unless its grid is loaded next.
+    usePanes(all: readonly PaneView[], active: number): void {
+        Object.assign(this.state, withPanes(all, active));
+        this.changed();
+        void this.choose(this.state.domain, this.state.moment);
+    }
+    // Changes the layers of all panes.
+    setLayers(change: (layers: Layers, index: number) => Layers): void {
+        const { state } = this;
+        Object.assign(state, withPanes(withLayers(state, change), state.active));
+    }
     cellsCame(): void {
         this.tell('cells');
     }
@@ -192,10 +207,10 @@ export class App {
     // Switches to 2D or 3D, and to the camera and the layers that were there last.
     showFlat(isFlat: boolean): void {
         if (isFlat === this.state.isFlat) return;
-        const { camera, layers } = this.state;
+        const before = this.state;
         this.nextCut = undefined;
-        this.state = switched(this.state, isFlat, this.otherStance);
-        this.otherStance = { camera, layers };
+        this.state = switched(before, isFlat, this.otherStance);
+        this.otherStance = before;
         this.tell('camera');
         this.changed();
     }

@@ -43,7 +43,7 @@ export class BearingTool implements Tool {
     }
 
     private point(x: number, y: number): void {
-        this.place = pick(this.app, this.drawing, x, y, false)?.place ?? null;
+        this.place = pick(this.drawing, x, y, false)?.place ?? null;
         const way = this.way();
         this.tell(way ? way.text : panelTexts.tools.bearingHint);
         this.drawing.drawMarks();

@@ -3,9 +3,11 @@
 import { colorOf } from '../tables/color_table';
 import { ColorTable } from '../wire/color_tables';
 import { ShownUnit } from '../tables/units';
+import { isVelocity } from '../wire/moments';
 import { shades } from '../renderer/shades';
 import { fontOf, penOf, textScale } from './dom';
 import { haloed } from './labels';
+import { texts } from './texts';
 
 // Returns a round distance between the marks of an axis, so that there are about eight.
 export function stepOf(range: number): number {
@@ -15,6 +17,9 @@ export function stepOf(range: number): number {
 }
 
 export type BarEnds = readonly [high: string, low: string];
+
+// Velocities of these moments are away from the radar at one end of the bar of colors, and toward it at the other.
+export const endsOf = (moment: string): BarEnds | null => (isVelocity(moment) ? texts.velocityEnds : null);
 
 export class ColorBar {
     private drawn: readonly unknown[] = [];

@@ -25,7 +25,7 @@ export function addCompass(app: App, drawing: Drawing): void {
     const putReset = () => (reset.hidden = !app.shown || app.isFirstView);
     app.on(['shown', 'view', 'camera'], putReset);
     putReset();
-    drawing.addOverlay((pen) => {
+    drawing.addFurniture((pen) => {
         const { left, top, width, height } = place.getBoundingClientRect();
         pen.translate(left + width / 2, top + height / 2);
         pen.scale(textScale(), textScale());

@@ -11,16 +11,19 @@ import { Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
 import { Mark } from '../scene/ground_lines';
-import { isVelocity } from '../wire/moments';
+import { PanePlace, panePlaces } from '../scene/pane_places';
+import { PaneCount, allPanes } from '../scene/panes';
 import { App, Shown } from './app';
-import { ColorBar } from './color_bar';
-import { element, pixelRatio, textScale } from './dom';
+import { ColorBar, endsOf } from './color_bar';
+import { element, pixelRatio } from './dom';
 import { Ground } from './ground';
-import { drawHeightScale } from './height_scale';
-import { LayerMaker } from './layer_maker';
-import { Rect, clearLabels, drawLabels, placeLabels } from './labels';
+import { LayerMaker, LayerShare } from './layer_maker';
+import { Rect } from './labels';
+import { NamesOver } from './names_over';
+import { Pane } from './pane';
 import { addSkeleton } from './skeleton';
 import { Streaming } from './streaming';
+import { SweepStore } from './sweep_store';
 import { texts } from './texts';
 import { Windows } from './windows';
 
@@ -30,12 +33,11 @@ const leastStillAfterMs = 180;
 const mostStillAfterMs = 1000;
 const leastBetweenMs = 150; // between pictures while bricks come
 const longestWishMs = 30_000;
+const sweepsOfBudget = 0.2; // share of the page's memory for sweeps
+const gapPixels = 2; // between panes
 
-// Velocities of these moments are away from the radar at one end of the bar of colors, and toward it at the other.
-const endsOf = (moment: string) => (isVelocity(moment) ? texts.velocityEnds : null);
-
-// Draws over the picture in pixels of the page.
-export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry) => void;
+// Draws over a pane of the picture in pixels of the page.
+export type Overlay = (pen: CanvasRenderingContext2D, geometry: ViewGeometry, pane: Pane) => void;
 
 // Draws shapes on the ground, below the names of the map, and returns the rectangles of its own labels. `taken` are
 // rectangles without room for labels. A pixel of the pen is `ratio` pixels of the picture wide.
@@ -47,30 +49,27 @@ export interface GroundShapes {
 
 export class Drawing {
     readonly labels = element<HTMLCanvasElement>('labels');
-    // Let the browser paint on the processor if there is no graphics processor, because that is faster then.
-    private pen = this.labels.getContext('2d', { willReadFrequently: this.renderer.isSoftware })!;
+    private names = new NamesOver(this);
     private bar = new ColorBar(element<HTMLCanvasElement>('bar'));
-    private overlays: Overlay[] = [];
     shapes: GroundShapes | null = null; // null until the program of overlays has come
     isLoadingLayers = false; // the program of a layer has not come (panels/load_layers.ts)
-    drawn: DrawnLayers | null = null; // layers of the last picture
     readonly pictureChanged: (() => void)[] = []; // called after each picture
     readonly pictureFinished: (() => void)[] = []; // called after each complete picture
-    private ground = new Ground(this.app, this.renderer, () => this.draw());
+    readonly ground = new Ground(this.app, this.renderer, () => this.draw());
     private streaming = new Streaming(
         this.renderer,
         this.app.loader.decoder,
-        this.app.loader.budget.mostCells,
+        () => this.app.loader.budget.mostCells,
         () => this.drawLater(),
         (error) => this.app.fail(error),
     );
-    readonly windows = new Windows(
-        this.app.loader.decoder,
-        this.app.loader.budget.bytes,
-        () => this.app.cellsCame(),
-        (error) => this.app.fail(error),
-    );
-    readonly layers = new LayerMaker(this.app, this.windows, () => this.app.cellsCame());
+    readonly share: LayerShare = {
+        store: new SweepStore(sweepsOfBudget * this.app.loader.budget.bytes),
+        makeRotation: null,
+        layerCame: [],
+    };
+    panes: readonly Pane[] = [new Pane(this.app, 0, this.share)];
+    pointed = 0; // index of the pane under the pointer
     private lookedAt = ''; // view for which bricks were last asked
     private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
@@ -83,28 +82,32 @@ export class Drawing {
     private wish: { act: () => void } | null = null; // action that waits for a fine picture
 
     constructor(
-        private app: App,
+        readonly app: App,
         readonly renderer: Renderer,
         readonly picture: HTMLCanvasElement,
     ) {
         renderer.prepare();
         app.loader.onPlace = (domain, place) => void this.ground.expect(domain, place);
-        addSkeleton(app, this.labels, this.pen, (domain, place) => this.ground.expect(domain, place));
-        app.loader.besides = () => this.windows.bytes;
-        app.alongside = (next, isAhead) => this.layers.alongside(next, isAhead, this.geometryOf(next.loaded, 1));
-        app.isShownWhole = () => !this.layers.isWaiting;
-        app.repeats = () => this.layers.repeats();
+        addSkeleton(app, this.labels, this.names.pen, (domain, place) => this.ground.expect(domain, place));
+        app.loader.besides = () => this.panes.reduce((sum, { windows }) => sum + windows.bytes, 0);
+        app.alongside = (next, isAhead) => this.alongside(next, isAhead);
+        app.beside = (next) => this.others.map((pane) => pane.beside(next));
+        app.isShownWhole = () => this.panes.every(({ layers }) => !layers.isWaiting);
+        app.repeats = (pane = app.state.active) => this.panes[pane]?.layers.repeats() ?? null;
         app.on('cells', () => this.draw());
         app.on('shown', () => this.show());
         app.on('units', () => {
             if (app.shown) void this.ground.show(app.shown);
         });
-        app.on('choices', () => this.layers.askAgain());
+        app.on('choices', () => {
+            for (const { layers } of this.panes) layers.askAgain();
+        });
         app.on('view', () => this.draw());
         app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
         app.on('restored', () => {
             renderer.forget();
+            this.streaming.forget();
             this.ground.forget();
         });
         picture.addEventListener('webglcontextlost', () => app.takeGraphics(false));
@@ -113,35 +116,101 @@ export class Drawing {
             app.showing.restore();
         });
         window.addEventListener('resize', () => this.draw());
+        // The picture of several panes leaves room for the head of the page.
+        new ResizeObserver(() => this.panes.length > 1 && this.draw()).observe(picture);
+    }
+
+    // Returns the active pane.
+    get pane(): Pane {
+        this.takePanes();
+        return this.panes[this.app.state.active] ?? this.panes[0]!;
+    }
+    private get others(): Pane[] {
+        this.takePanes();
+        return this.panes.filter(({ isActive }) => !isActive);
+    }
+    get layers(): LayerMaker {
+        return this.pane.layers;
+    }
+    get windows(): Windows {
+        return this.pane.windows;
+    }
+    // Returns the layers of the active pane in the last picture.
+    get drawn(): DrawnLayers | null {
+        return this.pane.drawn;
+    }
+
+    // Makes a pane the active one, unless it shows nothing.
+    activate(index: number): void {
+        const { app, pane } = this;
+        const shown = this.panes[index]?.shown;
+        if (!shown || index === pane.index) return;
+        pane.keep(app.shown);
+        app.shown = shown;
+        app.usePanes(allPanes(app.state), index);
+    }
+
+    // Adds or drops panes, so that there are as many as in the view.
+    private takePanes(): void {
+        const count = Math.max(1, this.app.state.panes.length);
+        if (this.panes.length === count) return;
+        this.app.loader.divide(count);
+        document.body.classList.toggle('paned', count > 1);
+        this.panes = Array.from({ length: count }, (_, i) => this.panes[i] ?? new Pane(this.app, i, this.share));
+    }
+
+    private alongside(next: Shown, isAhead: boolean): Promise<void> | null {
+        const geometryOf = (loaded: LoadedGrid) => this.geometryOf(loaded, 1);
+        const waits = [
+            this.layers.alongside(next, isAhead, geometryOf(next.loaded)),
+            ...this.others.map((pane) => pane.alongside(next, isAhead, geometryOf)),
+        ].filter((one): one is Promise<void> => one !== null);
+        return waits.length > 0 ? Promise.all(waits).then(() => undefined) : null;
     }
 
     private show(): void {
         const { shown } = this.app;
         if (!shown) return;
-        this.renderer.show(shown.loaded);
-        this.streaming.show(shown.loaded);
+        for (const pane of this.others) pane.keep(pane.beside(shown));
+        const all = [...new Set(this.panes.flatMap((pane) => pane.shown?.loaded ?? []))];
+        this.renderer.show(all);
+        this.streaming.show(all);
         this.lookedAt = '';
         void this.ground.show(shown);
     }
 
+    // Adds marks that are drawn over each pane.
     addOverlay(overlay: Overlay): void {
-        this.overlays.push(overlay);
+        this.names.overlays.push(overlay);
+    }
+    // Adds marks that are drawn once over all panes.
+    addFurniture(overlay: Overlay): void {
+        this.names.furniture.push(overlay);
     }
 
     get cities(): Mark[] {
         return this.ground.marks.filter(({ kind }) => kind === 'city');
     }
 
-    // Returns the camera of the picture; null while nothing is shown. A pixel of the picture is `grain` pixels of the
-    // screen wide.
-    geometry(grain = 1): ViewGeometry | null {
-        const shown = this.app.shown;
-        return shown ? this.geometryOf(shown.loaded, grain) : null;
+    // Returns the places of the panes in pixels of the picture.
+    get places(): PanePlace[] {
+        this.takePanes();
+        const ratio = pixelRatio();
+        const [width, height] = [this.picture.clientWidth * ratio, this.picture.clientHeight * ratio];
+        const count = this.panes.length as PaneCount;
+        if (count === 1) return [{ left: 0, top: 0, width, height }];
+        return panePlaces(count, Math.round(width), Math.round(height), Math.round(gapPixels * ratio));
+    }
+
+    // Returns the camera of a pane, usually of the active one; null while it shows nothing. A pixel of the pane is
+    // `grain` pixels of the screen wide.
+    geometry(grain = 1, pane = this.pane): ViewGeometry | null {
+        return pane.shown ? this.geometryOf(pane.shown.loaded, grain) : null;
     }
     private geometryOf({ grid }: LoadedGrid, grain: number): ViewGeometry {
-        const ratio = pixelRatio();
-        const width = Math.max(16, Math.round((this.picture.clientWidth * ratio) / grain));
-        const height = Math.max(16, Math.round((this.picture.clientHeight * ratio) / grain));
+        const place = this.places[0]!;
+        const width = Math.max(16, Math.round(place.width / grain));
+        const height = Math.max(16, Math.round(place.height / grain));
         const { camera, exaggeration } = this.app.state;
         return new ViewGeometry(boxOf(grid), camera, exaggeration, width, height);
     }
@@ -191,10 +260,13 @@ export class Drawing {
     }
 
     // Asks for bricks if the view has changed since bricks were last asked for.
-    private stream(geometry: ViewGeometry, { halvings }: Rung): void {
+    private stream({ halvings }: Rung): void {
         const { camera, exaggeration } = this.app.state;
-        const view = JSON.stringify([camera, exaggeration, geometry.width, geometry.height, halvings]);
-        if (view !== this.lookedAt) this.streaming.look(geometry, halvings);
+        const { width, height } = this.places[0]!;
+        const view = JSON.stringify([camera, exaggeration, width, height, halvings]);
+        if (view !== this.lookedAt)
+            for (const { shown } of this.panes)
+                if (shown) this.streaming.look(shown.loaded, this.geometryOf(shown.loaded, 1), halvings);
         this.lookedAt = view;
     }
 
@@ -211,49 +283,66 @@ export class Drawing {
         this.draw();
     }
 
-    // Returns true if the picture has all layers, the ground, and the chosen domain and moment. A grid in parts may
+    // Returns true if the picture has all layers, the ground, and the chosen domain and moments. A grid in parts may
     // still lack detail.
     private get isComplete(): boolean {
-        const { shown, state } = this.app;
         return (
-            !this.layers.isWaiting &&
+            this.panes.every(({ isComplete }) => isComplete) &&
             !this.isLoadingLayers &&
             !this.ground.isWaiting &&
             !this.shapes?.isWaiting &&
-            shown?.moment === state.moment &&
-            shown.domain === state.domain &&
             !this.renderer.isLost
         );
     }
 
-    private drawNow(): void {
-        this.isDrawing = false;
-        const { app } = this;
-        const { shownTable: table, shown, state } = app;
-        if (!table || !shown) return;
-        const geometry = this.geometryOf(shown.loaded, 1);
-        const isMoving = !this.wish && performance.now() - this.movedAt < this.stillAfterMs;
-        const rung = this.rung(shown.loaded, isMoving || (app.player.isPlaying && !this.wish));
-        this.stream(geometry, rung);
-        const frame: Frame = {
-            geometry: rung.grain > 1 ? this.geometryOf(shown.loaded, rung.grain) : geometry,
+    private frameOf(pane: Pane, rung: Rung, isMoving: boolean): Frame | null {
+        const { shown, shownTable: table, state } = pane;
+        if (!shown || !table) return null;
+        return {
+            loaded: shown.loaded,
+            geometry: this.geometryOf(shown.loaded, rung.grain),
             ...rung,
             opacity: state.opacity,
             table,
             leastValue: state.least ?? -1e9,
             hasVolume: state.layers.hasVolume,
             hasGround: state.hasGround,
-            layers: (this.drawn = this.layers.make(geometry, isMoving)),
+            layers: (pane.drawn = pane.layers.make(this.geometryOf(shown.loaded, 1), isMoving)),
             keepsExposure: isMoving,
         };
-        const fetches = state.countsFetches && !isMoving ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
+    }
+
+    private render(frames: readonly (Frame | null)[], first: Frame): void {
+        if (frames.length === 1) return this.renderer.draw(first);
+        const { places } = this;
+        const ratio = pixelRatio();
+        this.renderer.drawPanes(
+            Math.round(this.picture.clientWidth * ratio),
+            Math.round(this.picture.clientHeight * ratio),
+            frames.map((frame, i) => ({ frame, place: places[i]! })),
+        );
+    }
+
+    private drawNow(): void {
+        this.isDrawing = false;
+        const { app, pane } = this;
+        const { shownTable: table, shown, state } = app;
+        if (!table || !shown) return;
+        const isMoving = !this.wish && performance.now() - this.movedAt < this.stillAfterMs;
+        const rung = this.rung(shown.loaded, isMoving || (app.player.isPlaying && !this.wish));
+        this.stream(rung);
+        const frames = this.panes.map((one) => this.frameOf(one, rung, isMoving));
+        const frame = frames[pane.index];
+        if (!frame) return;
+        const countsFetches = state.countsFetches && !isMoving && frames.length === 1;
+        const fetches = countsFetches ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
         const begun = performance.now();
-        this.renderer.draw(frame);
+        this.render(frames, frame);
         this.renderer.finish();
         const ms = Math.round(performance.now() - begun);
         this.governor.took(rung, ms);
         this.lastMs = ms;
-        this.drawOver(geometry);
+        this.names.draw();
         this.bar.show(table, shownUnit(table.unit, state.units), state.least, endsOf(shown.moment));
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         for (const act of this.pictureChanged) act();
@@ -265,7 +354,8 @@ export class Drawing {
     private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
         const { app } = this;
         this.isFinal = true;
-        const { detail } = this.streaming;
+        const detail = this.streaming.detail(shown.loaded);
+        const { missing } = this.streaming;
         const ofLayers = this.windows.coarsest(shown.loaded);
         const said = [
             detail && texts.detail(detail),
@@ -275,11 +365,11 @@ export class Drawing {
         element('drawn-how').textContent = texts.drawn(ms, rung, fetches);
         const held = texts.held(app.loader.bytes, app.loader.budget.bytes);
         element('held').textContent = held;
-        this.tell({ fetches, missing: detail?.missing ?? 0, held });
+        this.tell({ fetches, missing, held });
         document.documentElement.dataset['drawn'] = shown.key;
         document.documentElement.dataset['variants'] = this.renderer.compiledVariants.join('; ');
         for (const act of this.pictureFinished) act();
-        if (!this.wish || (detail?.missing ?? 0) > 0) return;
+        if (!this.wish || missing > 0) return;
         const { act } = this.wish;
         this.wish = null;
         act();
@@ -287,51 +377,7 @@ export class Drawing {
 
     // Draws names and marks again, but not the scene.
     drawMarks(): void {
-        const geometry = this.geometry();
-        if (geometry && !this.isDrawing) this.drawOver(geometry);
-    }
-
-    private drawOver(geometry: ViewGeometry): void {
-        if (this.labels.width !== geometry.width || this.labels.height !== geometry.height) {
-            this.labels.width = geometry.width;
-            this.labels.height = geometry.height;
-        }
-        const scale = textScale();
-        const taken = [
-            ...document.querySelectorAll(
-                'header, footer, section, #bar, #legend, #compass, #reset-view, #scale, #sight',
-            ),
-        ]
-            .map((one) => one.getBoundingClientRect())
-            .filter((rect) => rect.width > 0)
-            .map(({ left, top, right, bottom }) => ({
-                left: left / scale,
-                top: top / scale,
-                right: right / scale,
-                bottom: bottom / scale,
-            }));
-        const { pen } = this;
-        const ratio = pixelRatio();
-        clearLabels(pen);
-        const { hasGround, units } = this.app.state;
-        pen.save();
-        pen.scale(scale, scale);
-        const grain = ratio * scale;
-        if (hasGround) taken.push(...drawHeightScale(pen, geometry, units, taken, grain));
-        // Labels of shapes leave room for the names of sites, and take it from the other names.
-        const [sites, others] = [true, false].map((isSite) =>
-            hasGround ? this.ground.marks.filter(({ kind }) => (kind === 'site') === isSite) : [],
-        ) as [Mark[], Mark[]];
-        const named = placeLabels(pen, geometry, sites, taken, grain);
-        taken.push(...named.map(({ rect }) => rect));
-        taken.push(...(this.shapes?.draw(pen, geometry, taken, grain) ?? []));
-        drawLabels(pen, [...named, ...placeLabels(pen, geometry, others, taken, grain)]);
-        pen.restore();
-        for (const overlay of this.overlays) {
-            pen.save();
-            overlay(pen, geometry);
-            pen.restore();
-        }
+        if (this.app.shown && !this.isDrawing) this.names.draw();
     }
 
     // Publishes figures for programs that drive the page.

@@ -6,7 +6,7 @@ import { cameraOfFitted } from '../scene/fitted';
 import { boxOf } from '../scene/grid_box';
 import { FittedView, fittedView, isRegion } from '../wire/api';
 import { App, Shown } from './app';
-import { pixelRatio } from './dom';
+import { Drawing } from './drawing';
 
 const mostWaitMs = 1000;
 
@@ -15,7 +15,7 @@ export class Fitting {
 
     constructor(
         private app: App,
-        private picture: HTMLElement,
+        private drawing: Drawing,
     ) {
         app.on('choices', () => this.ask());
         const others = app.alongside;
@@ -30,8 +30,9 @@ export class Fitting {
         const { app } = this;
         const { domain, moment, time, isFlat } = app.state;
         if (!app.wantsFit || isFlat || domain === '' || isRegion(domain)) return;
-        const [width, height] = [this.picture.clientWidth, this.picture.clientHeight].map((side) =>
-            Math.min(8192, Math.max(16, Math.round(side * pixelRatio()))),
+        const place = this.drawing.places[0]!;
+        const [width, height] = [place.width, place.height].map((side) =>
+            Math.min(8192, Math.max(16, Math.round(side))),
         ) as [number, number];
         // Without an answer, the page keeps its usual view.
         const view = fittedView(domain, moment, time, width, height).catch(() => null);

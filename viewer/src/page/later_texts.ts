@@ -115,6 +115,16 @@ export const panelTexts = {
         none: 'no tilt',
         at: (degrees: number) => `${degrees.toFixed(1)}°`,
     },
+    panes: {
+        name: 'Panes',
+        choices: { '1': '1 pane', '2': '2 panes', '4': '4 panes', moments: 'REF VEL ZDR RHO', tilts: '4 tilts' },
+        tip: 'One, two or four pictures of one place and time (4)',
+        pane: (number: number, moment: string) => `Pane ${number}: ${moment}`,
+        moment: (number: number) => `Moment of pane ${number}`,
+        derived: 'Derived',
+        nothing: (moment: string) => `no ${moment} at this time`,
+        command: 'It draws the active pane.',
+    },
     // Keys and gestures, in groups with a title.
     keys: [
         [
@@ -127,6 +137,8 @@ export const panelTexts = {
                 ['Shift + ← → ↑ ↓', 'move'],
                 ['+ −', 'zoom'],
                 ['2 3', '2D, 3D'],
+                ['4', '1, 2 or 4 panes'],
+                ['5', 'next pane'],
                 ['T', 'from above, north up'],
                 ['S', 'from the south'],
                 ['O', 'obliquely'],

@@ -8,8 +8,7 @@ import { levelsAbout, maximumField, planeField } from '../fields/flat_field';
 import { Section, cutSection } from '../fields/section';
 import { mixingOf } from '../fields/status_rule';
 import { CutNumber, cutOf, kindOf, nearestSite, repeatsOf } from '../fields/sweep_choice';
-import { coneOf, radialsByAzimuth } from '../fields/sweep_cone';
-import { DrawnLayers, DrawnSurface, DrawnSweep } from '../renderer/layer_passes';
+import { DrawnLayers, DrawnSurface } from '../renderer/layer_passes';
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { Cells, extentOf, placingOf } from '../scene/grid_box';
 import {
@@ -27,37 +26,27 @@ import { Place, Plane, planeOf } from '../earth/projection';
 import { ColorTable } from '../wire/color_tables';
 import { heightText, valueText } from '../tables/units';
 import { Looks, looksOf } from '../tables/looks';
-import { ApiError, SweepRow, gates, isAbsent, rawBefore, sweeps } from '../wire/api';
+import { SweepRow, isAbsent } from '../wire/api';
 import { PackedGrid, valueOf } from '../wire/packed_grid';
-import { readPackedSweep } from '../wire/packed_sweep';
 import { App, Shown } from './app';
-import { FetchedInTurn } from './fetched_in_turn';
 import { Loader } from './loader';
+import { PlacedSweep, SweepStore, WantedSweep } from './sweep_store';
 import { texts } from './texts';
 import { Windows } from './windows';
 
 const sectionColumns = 480;
 const sectionRows = 192;
-const oldestVolumeMs = 30 * 60 * 1000; // no radar takes so long for one volume
-const sweepsOfBudget = 0.2; // share of the page's memory for sweeps
 const againAfterMs = 10_000; // after a sweep, or a grid of another moment, has failed
 
-// A sweep to draw, its cut, and all cuts of its volume.
-interface PlacedSweep {
-    rows: SweepRow[];
-    row: SweepRow;
-    moment: string;
-    quality: number; // least probability of weather
-    drawn: DrawnSweep;
+// What all panes share: sweeps, and the program of rotation.
+export interface LayerShare {
+    store: SweepStore;
+    makeRotation: ((of: LoadedGrid) => LoadedGrid) | null; // null until its program has come
+    layerCame: (() => void)[]; // called when a layer has come or failed, so that told() has changed
 }
 
-const bytesOfSweep = ({
-    drawn: {
-        gates: { codes },
-        radials,
-        cone,
-    },
-}: PlacedSweep): number => codes.byteLength + radials.byteLength + cone.corners.byteLength + cone.triangles.byteLength;
+// A pane whose layers are made.
+export type LayerSource = Pick<App, 'state' | 'shown' | 'shownTable' | 'domain' | 'loader' | 'nextCut' | 'fail'>;
 
 // Keeps the last value of each name, and its inputs.
 class Kept {
@@ -88,27 +77,20 @@ export class LayerMaker {
     private kept = new Kept();
     private comingOthers = new Set<string>(); // keys of grids of another moment that are being loaded
     private missingOthers = new Map<string, { at: number; error: unknown }>(); // when and why such grids failed
-    private sweeps: FetchedInTurn<PlacedSweep>;
-    private rows = new WeakMap<LoadedGrid, Map<string, Promise<{ time: string; rows: SweepRow[] }>>>(); // by station
-    private numbers = new WeakMap<LoadedGrid, number>();
-    private mostNumber = 0;
     private toldSweep = ''; // key of the sweep for which layerCame() was last called
     private lastSweep: { of: LoadedGrid; moment: string; key: string; sweep: PlacedSweep } | null = null;
     private askedSweep = ''; // key of the sweep that is being loaded
-    makeRotation: ((of: LoadedGrid) => LoadedGrid) | null = null; // null until its program has come
-    readonly layerCame: (() => void)[] = []; // called when a layer has come or failed, so that told() has changed
 
     constructor(
-        private app: App,
+        private pane: LayerSource,
         private windows: Windows,
+        private shared: LayerShare,
         private came: () => void,
-    ) {
-        this.sweeps = new FetchedInTurn(sweepsOfBudget * app.loader.budget.bytes, bytesOfSweep);
-    }
+    ) {}
 
     // Returns true if something that a layer needs has not come yet.
     get isWaiting(): boolean {
-        const { shown, state } = this.app;
+        const { shown, state } = this.pane;
         if (!shown) return false;
         const waitsForSweep = state.layers.sweepDeg !== null && !this.isSweepSettled(this.sweepKey(shown));
         const waitsForOther = this.othersOf(shown).some(({ key }) => this.comingOthers.has(key));
@@ -116,17 +98,18 @@ export class LayerMaker {
     }
     // Returns true if the sweep has come or failed. The drawn sweep has come, even if `sweeps` has no room to keep it.
     private isSweepSettled(key: string): boolean {
-        return this.lastSweep?.key === key || this.sweeps.isSettled(key);
+        return this.lastSweep?.key === key || this.shared.store.sweeps.isSettled(key);
     }
 
     // Fetches the data of layers that must come before `next` is shown: a sweep, the grid of another moment, and
     // windows. Returns null if all of them are here. `geometry` is the camera of the next picture.
     alongside(next: Shown, isAhead: boolean, geometry: ViewGeometry): Promise<void> | null {
-        const { sweepDeg } = this.app.state.layers;
+        const { sweepDeg } = this.pane.state.layers;
         const waits: Promise<unknown>[] = [];
-        if (sweepDeg !== null && this.sweeps.isNeeded(this.sweepKey(next))) waits.push(this.takeSweep(next, isAhead));
+        if (sweepDeg !== null && this.shared.store.sweeps.isNeeded(this.sweepKey(next)))
+            waits.push(this.takeSweep(next, isAhead));
         for (const other of next.loaded.stream ? [] : this.othersOf(next))
-            if (!this.app.loader.has(other.key) && !this.isMissing(other.key)) waits.push(this.takeOther(next, other));
+            if (!this.pane.loader.has(other.key) && !this.isMissing(other.key)) waits.push(this.takeOther(next, other));
         // Fetch windows for the next grid only, because there is room for the windows of one grid.
         const windows = isAhead
             ? null
@@ -140,13 +123,13 @@ export class LayerMaker {
         geometry: ViewGeometry,
         isMoving: boolean,
     ): { seen: Cells | null; lit: Cells | null; crossed: Cells | null } {
-        const { layers } = this.app.state;
+        const { layers } = this.pane.state;
         const { section } = layers;
         const isFlat =
             layers.planeM !== null ||
             layers.hasMaximum ||
             layers.hasHaze ||
-            veilsFolded(layers, this.app.shown?.moment ?? '');
+            veilsFolded(layers, this.pane.shown?.moment ?? '');
         return {
             seen: this.needed('layers', isFlat, () => this.windows.seen(loaded, 'layers', geometry, isMoving)),
             lit: this.needed('light', layers.isLit, () => this.windows.seen(loaded, 'light', geometry, isMoving)),
@@ -157,7 +140,7 @@ export class LayerMaker {
     // Makes all layers; null if only the volume is drawn. While the view moves, asks for no new windows that depend on
     // the view.
     make(geometry: ViewGeometry, isMoving: boolean): DrawnLayers | null {
-        const { shown, shownTable: table, state } = this.app;
+        const { shown, shownTable: table, state } = this.pane;
         const { layers } = state;
         const isUsual = (Object.keys(usualLayers) as (keyof Layers)[]).every(
             (name) => name === 'hasVolume' || layers[name] === usualLayers[name],
@@ -236,7 +219,7 @@ export class LayerMaker {
         return of && { ...drawn, of: of === shown.loaded ? null : of };
     }
     private rotationOf(shown: Shown): LoadedGrid | null {
-        const make = this.makeRotation;
+        const make = this.shared.makeRotation;
         const of = make && this.gridOf(shown, rotationMoment);
         return of && this.kept.take('rotation', [of], () => make(of));
     }
@@ -246,7 +229,7 @@ export class LayerMaker {
         // A grid in parts has no grid of another moment, because the bricks of two grids would be needed at once.
         if (shown.loaded.stream) return null;
         const other = this.otherOf(shown, moment);
-        const of = this.app.loader.find(other.key);
+        const of = this.pane.loader.find(other.key);
         if (of) return hasSameCells(of.grid, shown.loaded.grid) ? of : null;
         if (!this.comingOthers.has(other.key) && !this.isMissing(other.key)) {
             this.comingOthers.add(other.key);
@@ -259,14 +242,14 @@ export class LayerMaker {
         return null;
     }
     private tellLayerCame(): void {
-        for (const act of this.layerCame) act();
+        for (const act of this.shared.layerCame) act();
     }
     private otherOf({ domain, time }: Shown, moment: string): { key: string; moment: string } {
         return { key: Loader.key(domain, moment, time), moment };
     }
     // Returns the grids of other moments that layers need.
     private othersOf(shown: Shown): { key: string; moment: string }[] {
-        const { surface, hasRotation } = this.app.state.layers;
+        const { surface, hasRotation } = this.pane.state.layers;
         return [surface?.moment || shown.moment, hasRotation ? rotationMoment : shown.moment]
             .filter((moment, i, all) => moment !== shown.moment && all.indexOf(moment) === i)
             .map((moment) => this.otherOf(shown, moment));
@@ -279,7 +262,7 @@ export class LayerMaker {
         { key, moment }: { key: string; moment: string },
     ): Promise<void> {
         try {
-            await this.app.loader.load(domain, moment, time, isBetween);
+            await this.pane.loader.load(domain, moment, time, isBetween);
         } catch (error) {
             this.missingOthers.set(key, { at: performance.now(), error });
             if (!isAbsent(error)) this.askLater();
@@ -300,7 +283,7 @@ export class LayerMaker {
         if (moment === shown.moment) return '';
         const other = this.otherOf(shown, moment);
         if (shown.loaded.stream) return texts.surfaceLeftOut;
-        const of = this.app.loader.find(other.key);
+        const of = this.pane.loader.find(other.key);
         if (of) return hasSameCells(of.grid, shown.loaded.grid) ? '' : texts.layers.otherCells;
         if (!this.isMissing(other.key)) return texts.layers.otherComes;
         return isAbsent(this.missingOthers.get(other.key)?.error)
@@ -310,17 +293,17 @@ export class LayerMaker {
 
     // Returns all cuts of the volume whose sweep is drawn; null if no sweep is drawn.
     sweepRows(): SweepRow[] | null {
-        const { shown } = this.app;
+        const { shown } = this.pane;
         return shown && (this.sweepOf(shown)?.rows ?? null);
     }
     shownCut(): SweepRow | null {
-        const { shown } = this.app;
+        const { shown } = this.pane;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
     // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted one. In 2D, they
     // are shown one after another. Returns null in 3D, or if the user has chosen another kind of cut.
     repeats(): { numbers: CutNumber[]; at: number } | null {
-        const { shown, state } = this.app;
+        const { shown, state } = this.pane;
         const { sweepDeg, sweepNumber } = state.layers;
         const rows = state.isFlat && state.betweenS === 0 ? this.sweepRows() : null;
         if (!shown || !rows || sweepDeg === null) return null;
@@ -332,8 +315,8 @@ export class LayerMaker {
     }
     // Returns a sentence if nothing of the volume is visible. The sentence names the least visible value.
     private emptyTold({ moment, loaded: { grid, atlas } }: Shown): string[] {
-        const { state, shownTable: table } = this.app;
-        const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
+        const { state, shownTable: table } = this.pane;
+        const unit = this.pane.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
         if (!table) return [];
         const least = Math.max(table.stops[0]!.from, table.extinction[0]!.value, state.least ?? -Infinity);
         const hasVisible = atlas.brickCount > 0 && valueOf(grid, atlas.greatest) >= least;
@@ -341,7 +324,7 @@ export class LayerMaker {
     }
     // Returns sentences about the layers other than the volume, and about hidden echo.
     told(): string[] {
-        const { shown, state } = this.app;
+        const { shown, state } = this.pane;
         const { layers, units } = state;
         if (!shown) return [];
         if (echoLayers(layers) === 0) return [texts.layers.hidden];
@@ -354,7 +337,7 @@ export class LayerMaker {
         if (layers.hasFolded === false && veilsFolded({ ...layers, hasFolded: null }, shown.moment))
             said.push(texts.layers.hiddenFolded);
         if (state.least !== null)
-            said.push(texts.layers.hiddenBelow(valueText(state.least, this.app.shownTable?.unit ?? '', units)));
+            said.push(texts.layers.hiddenBelow(valueText(state.least, this.pane.shownTable?.unit ?? '', units)));
         if (layers.planeM !== null) {
             const isBeyond = levelsAbout(shown.loaded.grid.levelsM, layers.planeM) === null;
             said.push(
@@ -364,7 +347,7 @@ export class LayerMaker {
         }
         if (layers.surface) {
             const moment = layers.surface.moment || shown.moment;
-            const unit = this.app.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
+            const unit = this.pane.domain?.moments.find((one) => one.moment === moment)?.units ?? '';
             const value = valueText(layers.surface.value, unit, units);
             const why = this.whyNot(shown, moment);
             said.push(
@@ -386,104 +369,59 @@ export class LayerMaker {
     private sweepTold(shown: Shown): string {
         const station = this.stationOf(shown);
         const found = this.sweepOf(shown);
-        const isDealiased = sweepMoment(this.app.state.layers, shown.moment) !== shown.moment;
+        const isDealiased = sweepMoment(this.pane.state.layers, shown.moment) !== shown.moment;
         const say = isDealiased ? texts.layers.dealiasedSweepAt : texts.layers.sweepAt;
         if (found) {
             const { station: of, gates: drawn } = found.drawn;
             return say(of, cutText(found.row, found.rows)) + texts.layers.leftOut(', ', drawn.leftOut);
         }
-        const error = this.sweeps.errorOf(this.sweepKey(shown));
+        const error = this.shared.store.sweeps.errorOf(this.sweepKey(shown));
         if (error === undefined) return texts.layers.sweepComes(station);
         return isAbsent(error) ? texts.layers.noSweep(station) : texts.layers.sweepFailed(station);
     }
     // Returns the station whose sweep is drawn, which is the site nearest to the point that the view looks at. Returns
     // an empty text without sites.
     private stationOf({ loaded: { grid } }: Shown): string {
-        const [x, y] = this.app.state.camera.lookAtM ?? [0, 0];
+        const [x, y] = this.pane.state.camera.lookAtM ?? [0, 0];
         return nearestSite(grid.sites, planeOf(grid), [x, y])?.icao ?? '';
     }
-    rowsOf({ loaded, time }: Shown, station: string): Promise<{ time: string; rows: SweepRow[] }> {
-        const known = this.rows.get(loaded) ?? new Map<string, Promise<{ time: string; rows: SweepRow[] }>>();
-        this.rows.set(loaded, known);
-        let asked = known.get(station);
-        if (!asked) {
-            asked = (async () => {
-                const volume = (await rawBefore(station, time))?.time ?? null;
-                // Refuse an old volume, whose sweeps do not show the weather at this time.
-                if (volume === null || Date.parse(time) - Date.parse(volume) > oldestVolumeMs)
-                    throw new ApiError(404, texts.layers.noVolume(station));
-                return { time: volume, rows: await sweeps(station, volume) };
-            })();
-            known.set(station, asked);
-            asked.catch(() => known.delete(station));
-        }
-        return asked;
-    }
-
-    // Returns a number for a loaded grid, for keys. The time of the grid is not enough, because a grid that was made
-    // again may have another volume, and so other sweeps.
-    private numberOf(loaded: LoadedGrid): number {
-        if (!this.numbers.has(loaded)) this.numbers.set(loaded, ++this.mostNumber);
-        return this.numbers.get(loaded)!;
+    // Returns the sweep that a picture wants; null if the layer is off.
+    private wantedSweep(shown: Shown): WantedSweep | null {
+        const { layers } = this.pane.state;
+        const { sweepDeg } = layers;
+        if (sweepDeg === null) return null;
+        return {
+            station: this.stationOf(shown),
+            moment: sweepMoment(layers, shown.moment),
+            elevationDeg: sweepDeg,
+            number: this.cutNumberOf(shown),
+            quality: sweepQuality(layers),
+        };
     }
     private sweepKey(shown: Shown): string {
-        const { loaded } = shown;
-        const { layers } = this.app.state;
-        const { sweepDeg, isSweepWeather } = layers;
-        const moment = sweepMoment(layers, shown.moment);
-        const number = this.cutNumberOf(shown);
-        return [this.numberOf(loaded), moment, this.stationOf(shown), sweepDeg, number, isSweepWeather].join(' ');
+        const wanted = this.wantedSweep(shown);
+        return wanted ? this.shared.store.keyOf(shown, wanted) : '';
     }
     private cutNumberOf(shown: Shown): CutNumber {
-        const { nextCut, state } = this.app;
-        return shown === this.app.shown || nextCut === undefined ? state.layers.sweepNumber : nextCut;
+        const { nextCut, state } = this.pane;
+        return shown === this.pane.shown || nextCut === undefined ? state.layers.sweepNumber : nextCut;
     }
     private takeSweep(shown: Shown, isAhead: boolean): Promise<void> {
-        const { layers } = this.app.state;
-        const { sweepDeg } = layers;
-        const { loaded } = shown;
-        const number = this.cutNumberOf(shown);
-        const quality = sweepQuality(layers);
-        const moment = sweepMoment(layers, shown.moment);
-        const station = this.stationOf(shown);
-        const fetch = async (): Promise<PlacedSweep> => {
-            const { time, rows } = await this.rowsOf(shown, station);
-            const row = sweepDeg !== null && cutOf(rows, moment, sweepDeg, number);
-            if (!row) throw new ApiError(404, texts.layers.noSweep(station));
-            // Another way to name the cut may have fetched the same sweep.
-            const known = this.sweeps.search(
-                (one) => one.row === row && one.moment === moment && one.quality === quality,
-            );
-            if (known) return known;
-            const bytes = await gates(station, time, row.sweep, moment, quality);
-            const read = readPackedSweep(new Uint8Array(bytes));
-            return {
-                rows,
-                row,
-                moment,
-                quality,
-                drawn: {
-                    station,
-                    gates: read,
-                    radials: radialsByAzimuth(read),
-                    cone: coneOf(read, planeOf(loaded.grid)),
-                },
-            };
-        };
-        return this.sweeps.take(this.sweepKey(shown), fetch, isAhead);
+        const wanted = this.wantedSweep(shown);
+        return wanted ? this.shared.store.take(shown, wanted, isAhead) : Promise.resolve();
     }
 
     // Returns the sweep to draw. Until this sweep has come, returns the last drawn sweep of the same grid; null if
     // there is none.
     private sweepOf(shown: Shown): PlacedSweep | null {
-        if (this.app.state.layers.sweepDeg === null) return null;
+        if (this.pane.state.layers.sweepDeg === null) return null;
         const { loaded } = shown;
-        const moment = sweepMoment(this.app.state.layers, shown.moment);
+        const moment = sweepMoment(this.pane.state.layers, shown.moment);
         const key = this.sweepKey(shown);
         const last = this.lastSweep?.of === loaded && this.lastSweep.moment === moment ? this.lastSweep : null;
-        const found = this.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
+        const found = this.shared.store.sweeps.find(key) ?? (last?.key === key ? last.sweep : null);
         if (found) this.lastSweep = { of: loaded, moment, key, sweep: found };
-        if (found || isAbsent(this.sweeps.errorOf(key)) || !this.sweeps.isNeeded(key)) {
+        if (found || isAbsent(this.shared.store.sweeps.errorOf(key)) || !this.shared.store.sweeps.isNeeded(key)) {
             // Tell the listener of a sweep that came or failed earlier, because no other event does. Tell it later,
             // because the listener may be the caller.
             if (this.toldSweep !== key) queueMicrotask(() => this.tellLayerCame());
@@ -494,9 +432,9 @@ export class LayerMaker {
             this.askedSweep = key;
             void this.takeSweep(shown, false).then(() => {
                 this.askedSweep = '';
-                const error = this.sweeps.errorOf(key);
+                const error = this.shared.store.sweeps.errorOf(key);
                 if (error !== undefined && !isAbsent(error)) {
-                    this.app.fail(error);
+                    this.pane.fail(error);
                     this.askLater();
                 }
                 this.tellLayerCame();

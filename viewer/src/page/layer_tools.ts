@@ -125,7 +125,7 @@ export class CropTool extends GroundTool {
 }
 
 // Returns the box of the shown grid; null if no grid is shown.
-export function wholeBox({ shown }: App): Crop | null {
+export function wholeBox({ shown }: Pick<App, 'shown'>): Crop | null {
     if (!shown) return null;
     const { halfXM, halfYM, bottomM, topM } = boxOf(shown.loaded.grid);
     return { westM: -halfXM, eastM: halfXM, southM: -halfYM, northM: halfYM, bottomM, topM };
@@ -193,10 +193,9 @@ function putHeight(pen: CanvasRenderingContext2D, geometry: ViewGeometry, height
 }
 
 // Draws the line of the section on the ground with its ends A and B, the box of the crop, and the plane's height.
-export function addMarks(app: App, drawing: Drawing): void {
-    drawing.addOverlay((pen, geometry) => {
-        const { shown } = app;
-        const { section, crop, planeM } = app.state.layers;
+export function addMarks(drawing: Drawing): void {
+    drawing.addOverlay((pen, geometry, { shown, state }) => {
+        const { section, crop, planeM } = state.layers;
         if (!shown || (!section && !crop && planeM === null)) return;
         const toPixel = (at: Plane, heightM = geometry.groundM) => pagePixel(geometry, at, heightM);
         const line = (points: ([number, number] | null)[]) => {
@@ -206,7 +205,7 @@ export function addMarks(app: App, drawing: Drawing): void {
         };
         pen.strokeStyle = shades.quietText;
         pen.lineWidth = 1.2;
-        if (planeM !== null) putHeight(pen, geometry, planeM, heightText(planeM, app.state.units));
+        if (planeM !== null) putHeight(pen, geometry, planeM, heightText(planeM, state.units));
         if (crop) {
             const corners: Plane[] = [
                 [crop.westM, crop.southM],

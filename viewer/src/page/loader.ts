@@ -15,19 +15,36 @@ import { isRegion, packed, packedBetween } from '../wire/api';
 // Divides the memory for grids.
 export class Budget {
     readonly mostWhole: number; // most uncompressed bytes of a grid; a larger grid is fetched in parts
-    readonly poolSide: number; // number of slots along each side of the atlas for grids in parts
-    readonly mostCells: number; // bytes of codes that the worker keeps for a grid in parts
-    readonly mostFirst: number; // most bricks of the halved grid that is fetched first
+    panes = 1; // number of panes that share the memory for grids in parts
 
     constructor(
         readonly bytes: number,
-        mostTexels: number,
+        private mostTexels: number,
     ) {
         this.mostWhole = Math.floor(0.1 * bytes);
-        const slots = (0.36 * bytes) / brickTexelBytes;
-        this.poolSide = Math.max(2, Math.min(Math.floor(Math.cbrt(slots)), Math.floor(mostTexels / paddedEdge)));
-        this.mostCells = 0.19 * bytes;
-        this.mostFirst = 0.15 * this.poolSide ** 3;
+    }
+
+    // Divides the memory for grids in parts among panes. Returns false if it is divided so already.
+    divide(panes: number): boolean {
+        const isOther = panes !== this.panes;
+        this.panes = panes;
+        return isOther;
+    }
+    get bytesOfPane(): number {
+        return this.bytes / this.panes;
+    }
+    // Returns the number of slots along each side of the atlas for grids in parts.
+    get poolSide(): number {
+        const slots = (0.36 * this.bytesOfPane) / brickTexelBytes;
+        return Math.max(2, Math.min(Math.floor(Math.cbrt(slots)), Math.floor(this.mostTexels / paddedEdge)));
+    }
+    // Returns the bytes of codes that the worker keeps for a grid in parts.
+    get mostCells(): number {
+        return 0.19 * this.bytesOfPane;
+    }
+    // Returns the most bricks of the halved grid that is fetched first.
+    get mostFirst(): number {
+        return 0.15 * this.poolSide ** 3;
     }
 }
 
@@ -166,12 +183,20 @@ export class Loader {
         return { grid, atlas, coverage, stream };
     }
 
+    // Divides the memory among panes. Forgets grids in parts, whose atlases then have another size.
+    divide(panes: number): void {
+        if (!this.budget.divide(panes)) return;
+        for (const [key, { stream }] of [...this.kept]) if (stream) this.forget(key);
+    }
+
     // Returns the bytes of all grids, with the atlas, the codes and the windows of grids in parts.
     get bytes(): number {
         const all = [...this.kept.values()];
         const parts = all.find(({ stream }) => stream);
-        const pool = parts ? 2 * parts.atlas.size[0] ** 3 + this.budget.mostCells + this.besides() : 0;
-        return all.reduce((sum, one) => sum + bytesOf(one), pool);
+        const pools = parts
+            ? this.budget.panes * (2 * parts.atlas.size[0] ** 3 + this.budget.mostCells) + this.besides()
+            : 0;
+        return all.reduce((sum, one) => sum + bytesOf(one), pools);
     }
 
     private keep(key: string, loaded: LoadedGrid): void {

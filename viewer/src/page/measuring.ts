@@ -30,7 +30,7 @@ export class MeasureTool implements Tool {
     }
 
     click(x: number, y: number): void {
-        const picked = pick(this.app, this.drawing, x, y, false);
+        const picked = pick(this.drawing, x, y, false);
         if (!picked) return;
         // Begin a new distance with the third click.
         if (this.measure === 'distance' && this.points.length === 2) this.points = [];
@@ -41,7 +41,7 @@ export class MeasureTool implements Tool {
     hover(x: number, y: number): void {
         const isOpen = this.points.length > 0 && !(this.measure === 'distance' && this.points.length === 2);
         if (!isOpen) return;
-        this.ahead = pick(this.app, this.drawing, x, y, false);
+        this.ahead = pick(this.drawing, x, y, false);
         this.put();
     }
     end(): void {

@@ -1,6 +1,7 @@
 // Handles the server's news of new, remade and evicted grids.
 
 import { outdatedBy } from '../time/outdated';
+import { allPanes } from '../scene/panes';
 import { Region, isRegion, times } from '../wire/api';
 import { App } from './app';
 import { Loader } from './loader';
@@ -59,8 +60,10 @@ export class News {
         if (isLeft()) return;
         const isNear = (time: string) =>
             volume === undefined || Math.abs(Date.parse(time) - Date.parse(volume)) <= farthestMadeMs;
-        const of = `${domain}/${moment}/`;
-        app.loader.forgetAll((key) => key.startsWith(of) && isNear(key.slice(of.length)));
+        for (const pane of allPanes(app.state)) {
+            const of = `${domain}/${pane.moment}/`;
+            app.loader.forgetAll((key) => key.startsWith(of) && isNear(key.slice(of.length)));
+        }
         const stored = (await times(domain, moment, soonTimes)).times;
         if (isLeft()) return;
         this.takeNewTimes(stored);
@@ -102,9 +105,9 @@ export class News {
               )
             : () => false;
         app.loader.forgetAll(isOld);
-        // The surface may be of another moment.
-        const isOfSurface = moment !== undefined && moment === app.state.layers.surface?.moment;
-        if (!this.isPartOfShown(domain) || (moment !== app.state.moment && !isOfSurface)) return;
+        // A surface may be of another moment, and panes are.
+        const isShown = allPanes(app.state).some((pane) => [pane.moment, pane.layers.surface?.moment].includes(moment));
+        if (moment === undefined || !this.isPartOfShown(domain) || !isShown) return;
         if (domain !== app.state.domain) return this.takeNewsOfSite(changedTime);
         if (moment !== app.state.moment) return changedTime === app.shown?.time ? app.showing.showTime() : undefined;
         const before = app.timeline.now;

@@ -11,10 +11,10 @@ import { GateHit, SolidHit, levelHit, sectionHit, sweepHit } from '../scene/soli
 import { colorOf, extinctionPerM } from '../tables/color_table';
 import { ColorTable } from '../wire/color_tables';
 import { CellState, PackedGrid, codeAt, stateOf, valueOf } from '../wire/packed_grid';
-import { App } from './app';
 import { Drawing } from './drawing';
 import { wholeBox } from './layer_tools';
 import { columnAt } from './column_reading';
+import { Pane } from './pane';
 
 export type PickedLayer = 'volume' | 'plane' | 'section' | 'surface' | 'maximum' | 'sweep' | 'ground' | 'outside';
 
@@ -50,7 +50,7 @@ interface Sight {
 }
 
 // Returns where the ray meets layers, the nearest first. A hit that is solid hides what is behind it.
-function solidsOn({ ray, grid, table, cells, whole }: Sight, { state }: App, { drawn }: Drawing): Met[] {
+function solidsOn({ ray, grid, table, cells, whole }: Sight, { state, drawn }: Pane): Met[] {
     if (!drawn) return [];
     const { geometry } = ray;
     const isShown = ({ state: status, value }: SolidHit) =>
@@ -119,11 +119,11 @@ const found = (
 ): Found => ({ layer, at, heightM, state, value, gate });
 
 // Returns what the ray mostly shows: the volume, a layer, or the ground; null for the sky.
-function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
+function foundOn(sight: Sight, pane: Pane): Found | null {
     const { ray, table, cells, whole, ground } = sight;
     const { geometry } = ray;
-    const { opacity, least, layers } = app.state;
-    const met = solidsOn(sight, app, drawing);
+    const { opacity, least, layers } = pane.state;
+    const met = solidsOn(sight, pane);
     const solid = met.find((one) => one.isSolid) ?? null;
     // Read the volume up to the depth at which a solid layer or the ground hides it.
     const untilDepth = Math.min(
@@ -142,7 +142,7 @@ function foundOn(sight: Sight, app: App, drawing: Drawing): Found | null {
         const gate = layer === 'sweep' ? (hit as GateHit) : null;
         return found(layer, hit.at, heightM ?? hit.heightM, hit.state, hit.value, gate);
     }
-    return ground && groundOn(sight, ground, drawing.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
+    return ground && groundOn(sight, ground, pane.drawn?.hasFolded ? (volume?.foldedM ?? 0) : 0);
 }
 
 // Returns what the ray shows at a place of the ground. Within the grid, this is range folded air if the ray's length in
@@ -156,13 +156,14 @@ function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: nu
     return found('ground', ground, groundM, lowest?.state ?? null, lowest?.value);
 }
 
-// Returns what a pixel shows; null for the sky, or if nothing is shown. For a grid in parts, asks for the cells along
-// the ray if `asks` is true. Until these have come, leaves out the volume and the surface.
-export function pick(app: App, drawing: Drawing, left: number, top: number, asks: boolean): Picked | null {
+// Returns what a pixel of a pane, usually of the active one, shows; null for the sky, or if nothing is shown. For a grid
+// in parts, asks for the cells along the ray if `asks` is true. Until these have come, leaves out the volume and the
+// surface.
+export function pick(drawing: Drawing, left: number, top: number, asks: boolean, pane = drawing.pane): Picked | null {
     const [x, y] = [left + 0.5, top + 0.5]; // middle of the pixel
-    const geometry = drawing.geometry();
-    const { shown, shownTable: table, state } = app;
-    const whole = wholeBox(app);
+    const geometry = drawing.geometry(1, pane);
+    const { shown, shownTable: table, state } = pane;
+    const whole = wholeBox(pane);
     if (!geometry || !shown || !table || !whole) return null;
     const { grid, stream } = shown.loaded;
     const ground = geometry.ground(x, y);
@@ -170,11 +171,11 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
     const way = wayWithin(ray, croppedBox(whole, state.layers.crop)) ?? [];
     const points = [...way, ...(ground ? [ground] : [])];
     const isAlong = boundsAbout(points, grid) !== null; // the ray meets columns of the grid
-    const cells = isAlong && (asks || !stream) ? drawing.windows.ray(shown.loaded, points) : null;
-    const seen = foundOn({ ray, grid, table, cells, whole, ground }, app, drawing);
+    const cells = isAlong && (asks || !stream) ? pane.windows.ray(shown.loaded, points) : null;
+    const seen = foundOn({ ray, grid, table, cells, whole, ground }, pane);
     if (!seen) return null;
     const { layer } = seen;
-    const isThrough = state.layers.hasVolume || drawing.drawn?.surface != null;
+    const isThrough = state.layers.hasVolume || pane.drawn?.surface != null;
     return {
         ...seen,
         place: planeOf(grid).toPlace(seen.at),
@@ -185,7 +186,7 @@ export function pick(app: App, drawing: Drawing, left: number, top: number, asks
         halvings:
             layer === 'sweep'
                 ? 0
-                : drawing.windows.halvings(
+                : pane.windows.halvings(
                       shown.loaded,
                       layer === 'section' ? layer : layer === 'plane' || layer === 'maximum' ? 'layers' : 'ray',
                   ),

@@ -62,7 +62,13 @@ export class Playback {
     }
     private showRepeat(sweepNumber: CutNumber): void {
         const { app } = this;
-        app.state.layers = { ...app.state.layers, sweepNumber };
+        const at = app.repeats()?.numbers.indexOf(sweepNumber) ?? -1;
+        app.setLayers((layers, pane) => {
+            const { numbers } = app.repeats(pane) ?? { numbers: [] };
+            const isOwn = pane === app.state.active || sweepNumber === 'first';
+            const own = isOwn ? sweepNumber : numbers[Math.min(at, numbers.length - 1)];
+            return own === undefined || layers.sweepDeg === null ? layers : { ...layers, sweepNumber: own };
+        });
         this.changedAtMs = performance.now();
         app.changed();
     }

@@ -1,6 +1,7 @@
 // Handles mouse and fingers on the picture. They move the camera, unless a tool takes them.
 
 import { dragged, panned, zoomed } from '../camera/controls';
+import { paneAt } from '../scene/pane_places';
 import { App } from './app';
 import { pixelRatio } from './dom';
 import { Drawing } from './drawing';
@@ -69,16 +70,22 @@ export class Pointers {
         picture.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     }
 
+    // Returns the pixel of the pane under the pointer, or of the pane that was pressed.
     private at(event: MouseEvent): [number, number] {
-        return [event.offsetX * pixelRatio(), event.offsetY * pixelRatio()];
+        const [x, y] = [event.offsetX * pixelRatio(), event.offsetY * pixelRatio()];
+        const { places } = this.drawing;
+        if (this.pointers.size === 0) this.drawing.pointed = paneAt(places, x, y);
+        const { left, top } = places[this.drawing.pointed] ?? places[0]!;
+        return [x - left, y - top];
     }
 
     private down(event: PointerEvent): void {
         this.drawing.picture.setPointerCapture(event.pointerId);
+        const at = this.at(event);
+        this.drawing.activate(this.drawing.pointed);
         this.pointers.set(event.pointerId, event);
         this.travelled = 0;
         const isPlain = this.pointers.size === 1 && event.button === 0 && !event.shiftKey;
-        const at = this.at(event);
         this.taker = isPlain ? ([this.tool, this.grip].find((one) => one.press?.(...at)) ?? null) : null;
     }
 
@@ -111,19 +118,21 @@ export class Pointers {
         const is = Math.hypot(event.clientX - fixed.clientX, event.clientY - fixed.clientY);
         // Keep the place between the fingers.
         const { left, top } = this.drawing.picture.getBoundingClientRect();
-        const x = ((fixed.clientX + before.clientX) / 2 - left) * pixelRatio();
-        const y = ((fixed.clientY + before.clientY) / 2 - top) * pixelRatio();
+        const place = this.drawing.places[this.drawing.pointed] ?? { left: 0, top: 0 };
+        const x = ((fixed.clientX + before.clientX) / 2 - left) * pixelRatio() - place.left;
+        const y = ((fixed.clientY + before.clientY) / 2 - top) * pixelRatio() - place.top;
         const nearer = zoomed(this.app.state.camera, geometry, is / Math.max(1, was), x, y);
         this.app.moved(panned(nearer, geometry, (dx / 2) * pixelRatio(), (dy / 2) * pixelRatio()));
     }
 
     private up(event: PointerEvent): void {
+        const at = this.at(event);
         if (!this.pointers.delete(event.pointerId)) return;
-        this.taker?.release?.(...this.at(event));
+        this.taker?.release?.(...at);
         this.taker = null;
         if (event.type !== 'pointerup' || this.travelled >= farthestClick) return;
-        this.early.click = this.at(event);
-        this.tool.click?.(...this.at(event));
+        this.early.click = at;
+        this.tool.click?.(...at);
     }
 
     private wheel(event: WheelEvent): void {

@@ -148,10 +148,12 @@ export class Showing {
         // Choose the colors for clear air or for storms, but keep them during playback of one domain. The first halved
         // grid decides for a grid in parts.
         const isOther = app.shown?.domain !== shown.domain || !app.player.isPlaying;
+        const loaded = [shown, ...app.beside(shown)].find((one) => one?.moment === 'REF')?.loaded;
         if (book && isOther)
-            book.isClearAir = shown.moment === 'REF' && (shown.loaded.stream?.isClear ?? isClearAir(shown.loaded.grid));
+            book.isClearAir = loaded !== undefined && (loaded.stream?.isClear ?? isClearAir(loaded.grid));
         app.shown = shown;
-        if (app.nextCut !== undefined) app.state.layers = { ...app.state.layers, sweepNumber: app.nextCut };
+        const { nextCut } = app;
+        if (nextCut !== undefined) app.setLayers((layers) => ({ ...layers, sweepNumber: nextCut }));
         app.nextCut = undefined;
         app.unreadTime = '';
         app.state.time = app.player.follows ? 'latest' : shown.time;

@@ -5,12 +5,13 @@ import { element, fontOf, make, textScale } from './dom';
 import { haloed } from './labels';
 
 const told = ['title', 'station-told', 'sites-told', 'layers-told', 'overlays-told'];
+const toldOfPanes = told.filter((id) => id !== 'layers-told'); // each pane tells its own
 const lineHeight = 20;
 const swatch = 10;
 
 // Returns the lines of text in the page without the age of the data, which would be wrong later.
-function shownLines(): string[] {
-    const lines = told.map((id) => element(id)).filter((one) => !one.hidden);
+function shownLines(ids: readonly string[]): string[] {
+    const lines = ids.map((id) => element(id)).filter((one) => !one.hidden);
     return lines
         .map((one) =>
             [...one.childNodes]
@@ -76,7 +77,7 @@ export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement
     pen.scale(scale, scale);
     pen.textBaseline = 'middle';
     pen.font = fontOf(14, 'bold');
-    const [first, ...more] = shownLines();
+    const [first, ...more] = shownLines(told);
     let y = 18;
     const put = (line: string) => {
         for (const row of rowsOf(pen, line, (place.left * ratio) / scale - 28)) {
@@ -88,5 +89,49 @@ export function snapshotOf(picture: HTMLCanvasElement, labels: HTMLCanvasElement
     pen.font = fontOf(12);
     more.forEach(put);
     drawLegend(pen, all.width / scale - 12, (place.bottom * ratio) / scale + 8);
+    return all;
+}
+
+// Draws panes below their common title, each with its own title and colors. The elements of `heads` are the panes.
+export function snapshotOfPanes(
+    picture: HTMLCanvasElement,
+    labels: HTMLCanvasElement,
+    heads: readonly HTMLElement[],
+): HTMLCanvasElement {
+    const all = make('canvas');
+    const pen = all.getContext('2d')!;
+    const corner = labels.getBoundingClientRect();
+    const ratio = labels.width / corner.width;
+    const scale = ratio * textScale();
+    pen.font = fontOf(14, 'bold');
+    const rows = shownLines(toldOfPanes).flatMap((line) => rowsOf(pen, line, labels.width / scale - 28));
+    const top = Math.round((rows.length * lineHeight + 14) * scale);
+    all.width = labels.width;
+    all.height = labels.height + top;
+    pen.fillStyle = `rgb(${shades.page.slice(0, 3).join(' ')})`;
+    pen.fillRect(0, 0, all.width, all.height);
+    pen.drawImage(picture, 0, top, labels.width, labels.height);
+    pen.drawImage(labels, 0, top);
+    const placeOf = (one: Element) => {
+        const { left, top: above, width, height } = one.getBoundingClientRect();
+        return [
+            (left - corner.left) * ratio,
+            top + (above - corner.top) * ratio,
+            width * ratio,
+            height * ratio,
+        ] as const;
+    };
+    for (const head of heads) for (const bar of head.querySelectorAll('canvas')) pen.drawImage(bar, ...placeOf(bar));
+    pen.scale(scale, scale);
+    pen.textBaseline = 'middle';
+    rows.forEach((row, i) => {
+        pen.font = fontOf(i === 0 ? 14 : 12, i === 0 ? 'bold' : 'normal');
+        haloed(pen, row, 14, 18 + i * lineHeight, shades.text);
+    });
+    pen.font = fontOf(13, 'bold');
+    for (const head of heads) {
+        const [left, above] = placeOf(head);
+        haloed(pen, head.dataset['title'] ?? '', left / scale + 10, above / scale + 16, shades.text);
+    }
     return all;
 }

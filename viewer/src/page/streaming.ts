@@ -43,7 +43,7 @@ class Stream {
     private wanted: WantedColumn[] = [];
     private wantedKeys = new Set<string>();
     private failures = 0;
-    private hasEnded = false;
+    hasEnded = false;
 
     constructor(
         private loaded: LoadedGrid,
@@ -61,7 +61,7 @@ class Stream {
             const resident = this.pool.take(column.level, column.x, column.y, column.hasValues, this.wantedKeys);
             if (!resident) break;
             this.pool.pin(columnKey(column.level, column.x, column.y));
-            renderer.putBricks(resident.slots, column.texels);
+            renderer.putBricks(loaded, resident.slots, column.texels);
         }
         this.paint();
     }
@@ -105,7 +105,7 @@ class Stream {
 
     private paint(): void {
         paintPages(this.loaded.atlas.indirection, this.parts.pyramid, this.pool.columns, this.parts.shownOf);
-        this.renderer.putIndirection();
+        this.renderer.putIndirection(this.loaded);
     }
 
     // -- requests
@@ -270,7 +270,7 @@ class Stream {
                 for (const { level, x, y, hasValues, texels } of made) {
                     // The pool has room for all wanted columns, but a column may no longer be wanted.
                     const resident = this.pool.take(level, x, y, hasValues, this.wantedKeys);
-                    if (resident) this.renderer.putBricks(resident.slots, texels);
+                    if (resident) this.renderer.putBricks(this.loaded, resident.slots, texels);
                 }
                 this.paint();
                 this.changed();
@@ -291,33 +291,52 @@ class Stream {
     }
 }
 
-// Streams the shown grid if it is in parts.
+// Streams the shown grids that are in parts. Panes that show the same grid share its bricks.
 export class Streaming {
-    private stream: Stream | null = null;
+    private streams = new Map<LoadedGrid, Stream>();
 
     constructor(
         private renderer: Renderer,
         private decoder: Decoder,
-        private mostCells: number, // bytes of codes that the worker keeps
+        private mostCells: () => number, // bytes of codes that the worker keeps for a grid
         private changed: () => void,
         private fail: (error: unknown) => void,
     ) {}
 
-    // Call after Renderer::show().
-    show(loaded: LoadedGrid): void {
-        this.stream?.end();
-        this.stream = loaded.stream
-            ? new Stream(loaded, loaded.stream, this.renderer, this.decoder, this.mostCells, this.changed, this.fail)
-            : null;
+    // Call after the textures of the renderer are lost.
+    forget(): void {
+        for (const stream of this.streams.values()) stream.end();
+        this.streams.clear();
     }
 
-    // Fetches bricks for a view. `finest` is the level of the finest bricks that the view wants.
-    look(geometry: ViewGeometry, finest: number): void {
-        this.stream?.look(geometry, finest);
+    // Call after Renderer::show() with the same grids.
+    show(shown: readonly LoadedGrid[]): void {
+        for (const [loaded, stream] of this.streams) {
+            if (shown.includes(loaded) && !stream.hasEnded) continue;
+            stream.end();
+            this.streams.delete(loaded);
+        }
+        for (const loaded of shown) {
+            if (!loaded.stream || this.streams.has(loaded)) continue;
+            const { renderer, decoder, changed, fail } = this;
+            this.streams.set(
+                loaded,
+                new Stream(loaded, loaded.stream, renderer, decoder, this.mostCells(), changed, fail),
+            );
+        }
     }
 
-    // Returns which bricks of the shown grid have come; null if the grid is whole.
-    get detail(): Detail | null {
-        return this.stream?.detail ?? null;
+    // Fetches bricks of a grid for a view. `finest` is the level of the finest bricks that the view wants.
+    look(loaded: LoadedGrid, geometry: ViewGeometry, finest: number): void {
+        this.streams.get(loaded)?.look(geometry, finest);
+    }
+
+    // Returns which bricks of a shown grid have come; null if the grid is whole.
+    detail(loaded: LoadedGrid): Detail | null {
+        return this.streams.get(loaded)?.detail ?? null;
+    }
+    // Returns the number of columns of bricks that have not come.
+    get missing(): number {
+        return [...this.streams.values()].reduce((sum, { detail }) => sum + detail.missing, 0);
     }
 }

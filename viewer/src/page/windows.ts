@@ -46,7 +46,7 @@ export class Windows {
 
     constructor(
         private decoder: Decoder,
-        private budgetBytes: number,
+        private budgetBytes: () => number,
         private came: () => void,
         private fail: (error: unknown) => void,
     ) {}
@@ -157,9 +157,9 @@ export class Windows {
     }
 
     private limitsFor(purpose: Purpose, { nz }: PackedGrid): WindowLimits {
-        const bytes = bytesOfWindow * this.budgetBytes;
-        if (purpose === 'light') return { bytes, columns: (fallsOfLight * this.budgetBytes) / nz };
-        return { bytes, columns: (fieldOfLayers * this.budgetBytes) / bytesOfFields };
+        const bytes = bytesOfWindow * this.budgetBytes();
+        if (purpose === 'light') return { bytes, columns: (fallsOfLight * this.budgetBytes()) / nz };
+        return { bytes, columns: (fieldOfLayers * this.budgetBytes()) / bytesOfFields };
     }
 
     private cellsOf(loaded: LoadedGrid, purpose: Purpose): Cells | null {

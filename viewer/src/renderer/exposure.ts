@@ -59,13 +59,17 @@ export class Exposure {
         this.target = null;
     }
 
+    release(): void {
+        if (!this.target) return;
+        this.gl.deleteFramebuffer(this.target.framebuffer);
+        this.gl.deleteTexture(this.target.texture);
+        this.target = null;
+    }
+
     private targetOf(width: number, height: number): WebGLFramebuffer {
         const { gl } = this;
         if (this.target?.width === width && this.target.height === height) return this.target.framebuffer;
-        if (this.target) {
-            gl.deleteFramebuffer(this.target.framebuffer);
-            gl.deleteTexture(this.target.texture);
-        }
+        this.release();
         const texture = gl.createTexture()!;
         gl.bindTexture(gl.TEXTURE_2D, texture);
         gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, width, height);
@@ -76,7 +80,7 @@ export class Exposure {
         return framebuffer;
     }
 
-    // Sets `value`. `draw` draws the small picture that is measured.
+    // Sets `value`. `draw` draws the small picture that is measured, into a framebuffer that stays bound.
     measure(geometry: ViewGeometry, draw: (small: RayView) => void): void {
         const { gl } = this;
         const small = smallView(geometry);
@@ -88,7 +92,6 @@ export class Exposure {
         draw(small);
         const pixels = new Uint8Array(4 * width * height);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-        gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         this.value = exposureOf(pixels);
     }
 }

@@ -10,6 +10,7 @@ const unitOfUploads = 15;
 export class Graphics {
     private programs = new Map<string, Program>();
     private begun = new Map<string, WebGLProgram>(); // programs that may still be compiling
+    target: WebGLFramebuffer | null = null; // where pictures are drawn; null: the canvas
 
     constructor(readonly gl: WebGL2RenderingContext) {}
 
@@ -126,6 +127,11 @@ export class Graphics {
         program.vec3('forward', geometry.forward);
         program.float('scale', geometry.isPerspective ? geometry.focalPixels : geometry.metersPerPixel);
         return program;
+    }
+
+    // Directs drawing to the picture again after a pass has drawn to a target of its own.
+    drawToPicture(): void {
+        this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, this.target);
     }
 
     // Waits until the graphics processor has drawn everything.

@@ -1,4 +1,4 @@
-// Keeps the textures of the shown grid, and of grids of other moments of which layers draw surfaces.
+// Keeps the textures of the shown grids, and of grids of other moments of which layers draw surfaces.
 
 import { paddedEdge, placeOfSlot } from '../atlas/atlas';
 import { LoadedGrid } from '../atlas/loaded_grid';
@@ -18,8 +18,8 @@ export interface UploadedGrid {
 const levelTexels = 1024;
 
 export class GridTextures {
-    shown: UploadedGrid | null = null;
-    private others = new Map<LoadedGrid, UploadedGrid>();
+    private shown: readonly LoadedGrid[] = []; // grids of the panes
+    private uploaded = new Map<LoadedGrid, UploadedGrid>(); // also grids of which layers draw surfaces
     private gl: WebGL2RenderingContext;
 
     constructor(private graphics: Graphics) {
@@ -28,36 +28,46 @@ export class GridTextures {
 
     // Call after the context came back.
     forget(): void {
-        this.shown = null;
-        this.others.clear();
+        this.uploaded.clear();
     }
 
-    show(loaded: LoadedGrid): void {
-        const old = this.shown;
-        // Keep the atlas of a grid in parts for the next grid in parts, because all such atlases have the same size.
-        const pool = loaded.stream && old?.loaded.stream ? old.atlas : null;
-        this.release(old, pool);
-        this.shown = this.upload(loaded, pool);
+    // Uploads grids, and releases the grids that were shown before.
+    show(shown: readonly LoadedGrid[]): void {
+        this.shown = shown;
+        // Keep the atlas of a grid in parts for the next grid in parts, because such atlases usually have the same size.
+        const pools: UploadedGrid[] = [];
+        for (const [loaded, uploaded] of this.uploaded) {
+            if (shown.includes(loaded)) continue;
+            this.uploaded.delete(loaded);
+            if (loaded.stream) pools.push(uploaded);
+            else this.release(uploaded);
+        }
+        for (const loaded of shown) {
+            if (this.uploaded.has(loaded)) continue;
+            const at = loaded.stream ? pools.findIndex((one) => one.loaded.atlas.size[0] === loaded.atlas.size[0]) : -1;
+            const pool = pools.splice(at, at < 0 ? 0 : 1)[0];
+            if (pool) this.release(pool, pool.atlas);
+            this.uploaded.set(loaded, this.upload(loaded, pool?.atlas));
+        }
+        for (const pool of pools) this.release(pool);
     }
 
-    // Releases the textures of all other grids but those that are needed.
-    keepOthers(needed: (LoadedGrid | null | undefined)[]): void {
-        for (const [loaded, uploaded] of this.others) {
-            if (needed.includes(loaded)) continue;
+    // Releases the textures of all other grids but those that are shown or needed.
+    keepOthers(needed: readonly (LoadedGrid | null | undefined)[]): void {
+        for (const [loaded, uploaded] of this.uploaded) {
+            if (needed.includes(loaded) || this.shown.includes(loaded)) continue;
             this.release(uploaded);
-            this.others.delete(loaded);
+            this.uploaded.delete(loaded);
         }
     }
-    // Returns the textures of a grid, which may be the shown grid. Returns those of the shown grid for null.
-    uploadedOf(shown: UploadedGrid, of: LoadedGrid | null): UploadedGrid {
-        if (!of || of === shown.loaded) return shown;
-        const uploaded = this.others.get(of) ?? this.upload(of);
-        this.others.set(of, uploaded);
+    // Returns the textures of a grid, and uploads them first if they are not there.
+    uploadedOf(of: LoadedGrid): UploadedGrid {
+        const uploaded = this.uploaded.get(of) ?? this.upload(of);
+        this.uploaded.set(of, uploaded);
         return uploaded;
     }
 
-    private release(uploaded: UploadedGrid | null, kept: WebGLTexture | null = null): void {
-        if (!uploaded) return;
+    private release(uploaded: UploadedGrid, kept: WebGLTexture | null = null): void {
         for (const texture of [uploaded.atlas, uploaded.indirection, uploaded.coverage, uploaded.levels]) {
             if (texture !== kept) this.gl.deleteTexture(texture);
         }
@@ -86,16 +96,17 @@ export class GridTextures {
         };
     }
 
-    // Copies bricks into the atlas of the shown grid. `texels` has the bricks of the slots that are not -1, in their
+    // Copies bricks into the atlas of a shown grid. `texels` has the bricks of the slots that are not -1, in their
     // order.
-    putBricks(slots: Int32Array, texels: Uint8Array): void {
+    putBricks(of: LoadedGrid, slots: Int32Array, texels: Uint8Array): void {
         const gl = this.gl;
-        if (!this.shown) return;
-        this.graphics.beginUpload(this.shown.atlas);
+        const uploaded = this.uploaded.get(of);
+        if (!uploaded) return;
+        this.graphics.beginUpload(uploaded.atlas);
         let from = 0;
         for (const slot of slots) {
             if (slot < 0) continue;
-            const [x, y, z] = placeOfSlot(slot, this.shown.loaded.atlas.slots);
+            const [x, y, z] = placeOfSlot(slot, of.atlas.slots);
             gl.texSubImage3D(
                 gl.TEXTURE_3D,
                 0,
@@ -115,11 +126,12 @@ export class GridTextures {
     }
 
     // Uploads the atlas's indirection. Call after a change of the indirection.
-    putIndirection(): void {
+    putIndirection(of: LoadedGrid): void {
         const gl = this.gl;
-        if (!this.shown) return;
-        const { bricks, indirection } = this.shown.loaded.atlas;
-        this.graphics.beginUpload(this.shown.indirection);
+        const uploaded = this.uploaded.get(of);
+        if (!uploaded) return;
+        const { bricks, indirection } = of.atlas;
+        this.graphics.beginUpload(uploaded.indirection);
         gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, ...bricks, gl.RED_INTEGER, gl.UNSIGNED_INT, indirection);
     }
 

@@ -99,6 +99,12 @@ export class LayerPasses {
         this.target = null;
     }
 
+    // Releases all textures.
+    release(): void {
+        this.begin(false);
+        this.shelf.clear();
+    }
+
     // -- helpers for several layers
 
     private fieldTexture(name: string, field: FlatField, inGrid: Uint8Array | null): WebGLTexture {
@@ -146,6 +152,7 @@ export class LayerPasses {
         if (layers.sweep) this.drawSweep(geometry, layers, layers.sweep);
         if (layers.surface) drawSurface(layers.surface);
         this.target.end();
+        this.graphics.drawToPicture();
     }
 
     private beginSolid(wanted: ShaderProgram, geometry: ViewGeometry, layers: DrawnLayers): Program {

@@ -1,27 +1,29 @@
-// Draws ground, map lines, layers and volume with WebGL2.
+// Draws ground, map lines, layers and volume with WebGL2, in one picture or in several panes.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry } from '../camera/geometry';
 import { MapLines } from '../scene/ground_lines';
+import { PanePlace } from '../scene/pane_places';
 import { Frame } from './frame';
 import { Graphics } from './graphics';
 import { GridTextures, UploadedGrid } from './grid_textures';
 import { bindGrid } from './grid_uniforms';
 import { DrawnLayers, LayerPasses, hasSolids } from './layer_passes';
 import { LinePass } from './line_pass';
+import { PanePasses } from './pane_passes';
+import { PaneTarget } from './pane_target';
 import { airProgram, groundProgram } from './shader_programs';
 import { shades } from './shades';
-import { SurfacePass } from './surface_pass';
-import { VolumePass } from './volume_pass';
 import { WaterMask, WaterTexture } from './water_texture';
+
+const gapColor = [0.227, 0.271, 0.329] as const; // between panes; #3a4554, as borders of the page
 
 export class Renderer {
     private gl: WebGL2RenderingContext;
     private graphics: Graphics;
     private grids: GridTextures;
-    private passes: LayerPasses;
-    private volume: VolumePass;
-    private surfaces: SurfacePass;
+    private passes: PanePasses[]; // of each pane
+    private paneTarget: PaneTarget;
     private lines: LinePass;
     private water: WaterTexture;
 
@@ -31,9 +33,8 @@ export class Renderer {
         this.gl = gl;
         this.graphics = new Graphics(gl);
         this.grids = new GridTextures(this.graphics);
-        this.passes = new LayerPasses(this.graphics);
-        this.volume = new VolumePass(this.graphics, this.grids, this.passes);
-        this.surfaces = new SurfacePass(this.graphics, this.grids, this.passes);
+        this.passes = [new PanePasses(this.graphics, this.grids)];
+        this.paneTarget = new PaneTarget(gl);
         this.lines = new LinePass(this.graphics);
         this.water = new WaterTexture(this.graphics);
         canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
@@ -59,36 +60,69 @@ export class Renderer {
         this.lines.forget();
         this.water.forget();
         this.grids.forget();
-        this.passes.forget();
-        this.volume.forget();
+        this.paneTarget.forget();
+        this.passes = [new PanePasses(this.graphics, this.grids)];
     }
 
-    show(loaded: LoadedGrid): void {
+    // Takes the grids of all panes.
+    show(loaded: readonly LoadedGrid[]): void {
         this.grids.show(loaded);
     }
-    // Copies bricks into the atlas. `texels` has the bricks of the slots that are not -1, in their order.
-    putBricks(slots: Int32Array, texels: Uint8Array): void {
-        this.grids.putBricks(slots, texels);
+    // Copies bricks into the atlas of a shown grid. `texels` has the bricks of the slots that are not -1, in their order.
+    putBricks(of: LoadedGrid, slots: Int32Array, texels: Uint8Array): void {
+        this.grids.putBricks(of, slots, texels);
     }
     // Uploads the atlas's indirection. Call after a change of the indirection.
-    putIndirection(): void {
-        this.grids.putIndirection();
+    putIndirection(of: LoadedGrid): void {
+        this.grids.putIndirection(of);
     }
 
+    private resize(width: number, height: number): void {
+        if (this.canvas.width === width && this.canvas.height === height) return;
+        this.canvas.width = width;
+        this.canvas.height = height;
+    }
+
+    // Draws a picture that fills the canvas.
     draw(frame: Frame): void {
+        this.resize(frame.geometry.width, frame.geometry.height);
+        this.begin([frame]);
+        this.drawFrame(frame, this.passes[0]!);
+    }
+
+    // Draws panes into a picture of a size. A pane without a frame stays empty. A coarse frame is enlarged to its place.
+    drawPanes(width: number, height: number, panes: readonly { frame: Frame | null; place: PanePlace }[]): void {
+        const { gl } = this;
+        this.resize(width, height);
+        this.begin(panes.map(({ frame }) => frame));
+        gl.clearColor(...gapColor, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        panes.forEach(({ frame, place }, i) => {
+            if (!frame) return;
+            const passes = (this.passes[i] ??= new PanePasses(this.graphics, this.grids));
+            this.graphics.target = this.paneTarget.take(frame.geometry.width, frame.geometry.height);
+            this.graphics.drawToPicture();
+            this.drawFrame(frame, passes);
+            this.graphics.target = null;
+            this.paneTarget.copy(place, height, frame.grain > 1);
+        });
+    }
+
+    // Releases what the last picture needed and these frames do not need.
+    private begin(frames: readonly (Frame | null)[]): void {
+        for (const passes of this.passes.splice(frames.length)) passes.release();
+        if (frames.length < 2) this.paneTarget.release();
+        this.grids.keepOthers(frames.flatMap((frame) => [frame?.layers?.surface?.of, frame?.layers?.rotation]));
+    }
+
+    private drawFrame(frame: Frame, { layers: passes, volume, surfaces }: PanePasses): void {
         const gl = this.gl;
         const { geometry } = frame;
-        if (this.canvas.width !== geometry.width || this.canvas.height !== geometry.height) {
-            this.canvas.width = geometry.width;
-            this.canvas.height = geometry.height;
-        }
         const layers = frame.layers ?? null;
-        const uploaded = this.grids.shown;
-        const isSolid = layers !== null && uploaded !== null && hasSolids(layers);
-        this.passes.begin(isSolid);
-        this.grids.keepOthers([layers?.surface?.of, layers?.rotation]);
-        if (isSolid)
-            this.passes.drawSolids(geometry, layers, (surface) => this.surfaces.draw(frame, uploaded, layers, surface));
+        const uploaded = this.grids.uploadedOf(frame.loaded);
+        const isSolid = layers !== null && hasSolids(layers);
+        passes.begin(isSolid);
+        if (isSolid) passes.drawSolids(geometry, layers, (surface) => surfaces.draw(frame, uploaded, layers, surface));
         gl.viewport(0, 0, geometry.width, geometry.height);
         gl.disable(gl.BLEND);
         gl.clearColor(
@@ -98,22 +132,22 @@ export class Renderer {
             1,
         );
         gl.clear(gl.COLOR_BUFFER_BIT);
-        if (!uploaded) return;
         if (frame.hasGround) {
             this.drawGround(uploaded, geometry, frame.grain, layers?.hasHaze ?? false);
         }
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-        if (layers?.maximum) this.passes.drawMaximum(geometry, layers, layers.maximum);
+        if (layers?.maximum) passes.drawMaximum(geometry, layers, layers.maximum);
         if (frame.hasGround) this.lines.draw(geometry, frame.grain);
-        if (layers?.air && (layers.hasHaze || layers.hasFolded)) this.drawAir(frame, uploaded, layers, layers.air);
-        if (isSolid) this.passes.showSolids(geometry);
+        if (layers?.air && (layers.hasHaze || layers.hasFolded))
+            this.drawAir(frame, passes, uploaded, layers, layers.air);
+        if (isSolid) passes.showSolids(geometry);
         if (frame.hasVolume) {
-            if (layers?.falls && !frame.keepsExposure) this.volume.measureLight(frame);
+            if (layers?.falls && !frame.keepsExposure) volume.measureLight(frame);
             gl.enable(gl.BLEND);
-            this.volume.draw(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
+            volume.draw(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
         }
-        if (layers?.rotation) this.surfaces.drawRotation(frame, uploaded, layers.rotation);
+        if (layers?.rotation) surfaces.drawRotation(frame, layers.rotation);
     }
 
     // Returns the mean number of texels that the volume reads for a pixel. Draws over the picture.
@@ -121,7 +155,7 @@ export class Renderer {
         const gl = this.gl;
         this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });
         gl.disable(gl.BLEND);
-        this.volume.draw({ ...frame, layers: null }, { countsFetches: true });
+        this.passes[0]!.volume.draw({ ...frame, layers: null }, { countsFetches: true });
         const { width, height } = frame.geometry;
         const pixels = new Uint8Array(4 * width * height);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
@@ -160,6 +194,7 @@ export class Renderer {
 
     private drawAir(
         frame: Frame,
+        passes: LayerPasses,
         uploaded: UploadedGrid,
         layers: DrawnLayers,
         air: NonNullable<DrawnLayers['air']>,
@@ -176,7 +211,7 @@ export class Renderer {
         // Use steps over the whole depth of the grid, because the density of a veil depends on this depth.
         program.float('near', geometry.nearM);
         program.float('stepM', (geometry.farM - geometry.nearM) / frame.slices);
-        this.passes.bindAir(4, air, layers, program);
+        passes.bindAir(4, air, layers, program);
         this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
     }
 
@@ -193,7 +228,7 @@ export class Renderer {
 
     // Begins to compile the programs of the first picture, before its data have come.
     prepare(): void {
-        this.volume.prepare();
+        this.passes[0]!.volume.prepare();
         this.graphics.begin(groundProgram(true));
         this.lines.prepare();
     }

@@ -30,7 +30,7 @@ export class SolidTarget {
         return texture;
     }
 
-    // Directs drawing to this target until end(). Each pixel keeps the nearest layer.
+    // Directs drawing to this target. Each pixel keeps the nearest layer until end().
     begin(): void {
         const { gl } = this;
         gl.bindFramebuffer(gl.FRAMEBUFFER, this.framebuffer);
@@ -44,7 +44,6 @@ export class SolidTarget {
     }
     end(): void {
         this.gl.disable(this.gl.DEPTH_TEST);
-        this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, null);
     }
 
     dispose(): void {

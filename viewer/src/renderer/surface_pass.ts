@@ -25,7 +25,7 @@ export class SurfacePass {
 
     // Draws the surface around the values of a layer.
     draw(frame: Frame, shown: UploadedGrid, layers: DrawnLayers, { value, isBelow, of }: DrawnSurface): void {
-        const surface = this.grids.uploadedOf(shown, of);
+        const surface = of ? this.grids.uploadedOf(of) : shown;
         if (surface.loaded.atlas.brickCount === 0) return;
         const program = this.useSurface(frame, surface, value, { isBelow, hasOther: of !== null });
         if (of) {
@@ -68,8 +68,8 @@ export class SurfacePass {
     }
 
     // Draws columns of rotation over everything else, because echo would hide them. The echo shows through them.
-    drawRotation(frame: Frame, shown: UploadedGrid, of: LoadedGrid): void {
-        const surface = this.grids.uploadedOf(shown, of);
+    drawRotation(frame: Frame, of: LoadedGrid): void {
+        const surface = this.grids.uploadedOf(of);
         if (surface.loaded.atlas.brickCount === 0) return;
         this.gl.enable(this.gl.BLEND);
         for (const isBelow of [false, true]) {

@@ -43,6 +43,13 @@ export class VolumePass {
         this.graphics.begin(volumeProgram({ isPerspective: true, hasUnevenLevels: false }));
     }
 
+    // Releases what the pass keeps for the next picture.
+    release(): void {
+        this.gl.deleteTexture(this.transferTexture);
+        this.exposure.release();
+        this.forget();
+    }
+
     // Call after the context came back.
     forget(): void {
         this.tiles.forget();
@@ -54,9 +61,10 @@ export class VolumePass {
     // Draws the volume. `view` is the camera of the picture, or of a smaller picture of the same view.
     draw(frame: Frame, wanted: WantedOfVolume, view: RayView = frame.geometry): void {
         const { geometry, layers } = frame;
-        const uploaded = this.grids.shown;
-        if (!uploaded || uploaded.loaded.atlas.brickCount === 0) return;
-        const { loaded, levels } = uploaded;
+        const { loaded } = frame;
+        if (loaded.atlas.brickCount === 0) return;
+        const uploaded = this.grids.uploadedOf(loaded);
+        const { levels } = uploaded;
         const { grid } = loaded;
         const variant: VolumeVariant = {
             isPerspective: geometry.isPerspective,
@@ -90,6 +98,7 @@ export class VolumePass {
             gl.disable(gl.BLEND);
             this.draw(frame, { isLit: true, measuresLight: true }, small);
         });
+        this.graphics.drawToPicture();
         gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
     }
 

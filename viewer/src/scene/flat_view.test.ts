@@ -11,7 +11,6 @@ const solid: ViewState = {
     camera: { azimuthDeg: 217, tiltDeg: 71, zoom: 3, fieldOfViewDeg: 40, lookAtM: [12000, -7000, 4000] },
     layers: { ...usualState.layers, hasMaximum: true, hasCells: true, isSweepWeather: true },
 };
-const stanceOf = ({ camera, layers }: ViewState) => ({ camera, layers });
 
 test('2D is a map of the lowest tilt at the same place, with north up', () => {
     const { camera, layers, isFlat } = switched(solid, true, null);
@@ -30,9 +29,9 @@ test('a sweep that is shown in 3D is the first in 2D', () => {
 
 test('camera and layers of 2D and 3D come back', () => {
     const flat = switched(solid, true, null);
-    const back = switched(flat, false, stanceOf(solid));
+    const back = switched(flat, false, solid);
     assert.deepEqual(back, solid);
-    assert.deepEqual(switched(back, true, stanceOf(flat)), flat);
+    assert.deepEqual(switched(back, true, flat), flat);
 });
 
 test('a link to 2D leads to the usual view in 3D of the same place', () => {

@@ -9,22 +9,13 @@ import { draftOfText, textOfDraft } from '../tables/draft_text';
 import { isVelocity } from '../wire/moments';
 import { PackedGrid } from '../wire/packed_grid';
 import { Units, namesOf, unitsOf, usualUnits } from '../tables/units';
+import { PaneView, Panes, allPanes, paneText, panesOfQuery } from './panes';
 import { quoted } from './shell';
-import {
-    Layers,
-    flatLayers,
-    layersAddress,
-    layersOf,
-    productOf,
-    sunAsideDeg,
-    sunElevationDeg,
-    sweepMoment,
-    usualLayers,
-} from './layers';
+import { layersAddress, productOf, sunAsideDeg, sunElevationDeg, sweepMoment, usualLayers } from './layers';
 
-export interface ViewState {
+// The moment, layers, `least` and `colors` are those of the active pane.
+export interface ViewState extends Panes {
     domain: string; // empty: the first domain
-    moment: string;
     time: string; // ISO 8601, or 'latest'
     betweenS: number; // seconds between frames that are made between volumes; 0: no such frames
     isFlat: boolean; // 2D: the camera is that of a map, and stays so
@@ -32,13 +23,10 @@ export interface ViewState {
     hasGround: boolean; // map and ground are drawn
     exaggeration: number;
     opacity: number;
-    least: number | null; // values below it are not shown
-    colors: string; // name of a table; empty: the moment's own table
     quality: string; // name of a way of drawing (renderer/ladder.ts); empty: the page chooses one
     memoryMib: number; // memory for grids; read when the page is opened
     countsFetches: boolean; // the page counts the texels that a pixel asks for
     drafts: Draft[]; // tables that the user made, at most one for each moment; they override `colors`
-    layers: Layers;
     overlays: readonly string[]; // names of the server's overlays that are on
     units: Units;
 }
@@ -60,6 +48,8 @@ export const usualState: ViewState = {
     countsFetches: false,
     drafts: [],
     layers: usualLayers,
+    panes: [],
+    active: 0,
     overlays: [],
     units: usualUnits,
 };
@@ -71,9 +61,10 @@ const rounded = (value: number, places: number): string => String(Number(value.t
 
 export function addressOf(state: ViewState): string {
     const { camera } = state;
+    const [first, ...others] = allPanes(state) as [PaneView, ...PaneView[]];
     const parts: [string, string][] = [
         ['domain', state.domain],
-        ['moment', state.moment],
+        ['moment', first.moment],
         ['time', state.time],
         ['azimuth', rounded(camera.azimuthDeg, 2)],
         ['tilt', rounded(camera.tiltDeg, 2)],
@@ -88,17 +79,22 @@ export function addressOf(state: ViewState): string {
     if (state.isFlat) parts.push(['view', '2d']);
     if (state.betweenS > 0) parts.push(['between', rounded(state.betweenS, 0)]);
     if (!state.hasGround) parts.push(['ground', '0']);
-    if (state.least !== null) parts.push(['least', rounded(state.least, 4)]);
-    if (state.colors) parts.push(['colors', state.colors]);
+    if (first.least !== null) parts.push(['least', rounded(first.least, 4)]);
+    if (first.colors) parts.push(['colors', first.colors]);
     if (state.quality) parts.push(['quality', state.quality]);
     if (state.memoryMib !== usualState.memoryMib) parts.push(['memory', String(state.memoryMib)]);
     if (state.countsFetches) parts.push(['count-fetches', '1']);
     for (const draft of state.drafts) parts.push(['table', textOfDraft(draft)]);
-    parts.push(...layersAddress(state.layers));
+    parts.push(...layersAddress(first.layers));
     for (const name of state.overlays) parts.push(['overlay', name]);
-    if (state.isFlat && state.layers.hasVolume) parts.push(['volume', '1']);
+    if (state.isFlat && first.layers.hasVolume) parts.push(['volume', '1']);
     if (namesOf(state.units)) parts.push(['units', namesOf(state.units)]);
-    return parts.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join('&');
+    for (const pane of others) parts.push(['pane', paneText(pane, state.isFlat)]);
+    if (state.active > 0) parts.push(['active', String(state.active + 1)]);
+    const readable = (text: string) => encodeURIComponent(text).replace(/%(3B|3D|2C)/g, decodeURIComponent);
+    return parts
+        .map(([name, text]) => `${name}=${name === 'pane' ? readable(text) : encodeURIComponent(text)}`)
+        .join('&');
 }
 
 // Reads the first `mostDrafts` words, and returns the last draft of each moment. Ignores words that make no sense.
@@ -151,11 +147,9 @@ function cameraOf(query: URLSearchParams): Camera {
 export function stateOf(text: string): ViewState {
     const query = new URLSearchParams(text.replace(/^#/, ''));
     const usual = usualState;
-    const least = number(query.get('least'), { least: -1000, most: 1000 }, NaN);
     const isFlat = query.get('view') === '2d';
     return {
         domain: (query.get('domain') ?? '').slice(0, 100),
-        moment: (query.get('moment') ?? '').toUpperCase().slice(0, 8),
         time: timeOf(query.get('time') ?? ''),
         betweenS: number(query.get('between'), { least: 10, most: 3600 }, 0),
         isFlat,
@@ -163,13 +157,11 @@ export function stateOf(text: string): ViewState {
         hasGround: query.get('ground') !== '0',
         exaggeration: number(query.get('exaggeration'), ranges.exaggeration, usual.exaggeration),
         opacity: number(query.get('opacity'), ranges.opacity, usual.opacity),
-        least: Number.isNaN(least) ? null : least,
-        colors: (query.get('colors') ?? '').slice(0, 100),
         quality: (query.get('quality') ?? '').slice(0, 100),
         memoryMib: number(query.get('memory'), { least: 4, most: 4096 }, usual.memoryMib),
         countsFetches: query.get('count-fetches') === '1',
         drafts: draftsOf(query.getAll('table')),
-        layers: isFlat && !query.has('volume') ? flatLayers(layersOf(query)) : layersOf(query),
+        ...panesOfQuery(query, isFlat),
         overlays: [...new Set(query.getAll('overlay'))].filter((name) => name !== '').slice(0, mostOverlays),
         units: unitsOf(query.get('units') ?? ''),
     };

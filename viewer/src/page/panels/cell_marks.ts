@@ -11,6 +11,7 @@ import { fontOf, textScale } from '../dom';
 import { Drawing } from '../drawing';
 import { FetchedInTurn } from '../fetched_in_turn';
 import { haloed, pagePixel } from '../labels';
+import { Pane } from '../pane';
 import { CellTable } from './cell_table';
 
 const mostBytes = 4 * 2 ** 20; // of answers that are kept
@@ -21,6 +22,9 @@ const aheadColor = 'rgb(255 220 80)';
 const none: readonly StormCell[] = [];
 
 type Pixel = [number, number];
+
+// The cells are those of a volume, whatever the moment.
+const keyOf = ({ domain, time }: Shown): string => `${domain} ${time}`;
 
 export class CellMarks {
     private answers = new FetchedInTurn<StormCell[]>(mostBytes, (list) => bytesOfCell * (1 + list.length));
@@ -34,29 +38,31 @@ export class CellMarks {
 
     begin(): void {
         document.querySelector('main')!.append(this.table.box);
-        this.drawing.addOverlay((pen, geometry) => this.draw(pen, geometry));
+        this.drawing.addOverlay((pen, geometry, pane) => this.draw(pen, geometry, pane));
         this.app.on(['view', 'shown', 'units', 'cells'], () => this.put());
         this.put();
     }
 
-    // Returns the cells of the shown grid, and fetches them first if they have not come.
-    private get cells(): readonly StormCell[] | null {
-        const { shown, state } = this.app;
+    // Returns the cells of the grid that a pane shows, and fetches them first if they have not come.
+    private cellsOf({ shown, state }: Pick<Pane, 'shown' | 'state'>): readonly StormCell[] | null {
         if (!shown || !state.layers.hasCells) return null;
-        if (this.answers.isNeeded(shown.key) && this.asked !== shown.key) void this.fetch(shown);
-        return this.answers.find(shown.key) ?? none;
+        const key = keyOf(shown);
+        if (this.answers.isNeeded(key) && this.asked !== key) void this.fetch(shown);
+        return this.answers.find(key) ?? none;
     }
-    private async fetch({ key, domain, time }: Shown): Promise<void> {
-        this.asked = key;
+    private async fetch(shown: Shown): Promise<void> {
+        const { domain, time } = shown;
+        const key = (this.asked = keyOf(shown));
         await this.answers.take(key, async () => readCells(await cells(domain, time)), false);
         this.asked = '';
         this.app.cellsCame();
     }
 
     private put(): void {
-        const found = this.cells;
+        const found = this.cellsOf(this.app);
         this.table.box.hidden = found === null;
-        const isKnown = this.answers.errorOf(this.app.shown?.key ?? '') === undefined;
+        const { shown } = this.app;
+        const isKnown = !shown || this.answers.errorOf(keyOf(shown)) === undefined;
         if (found) this.table.put(found, this.app.state.units, isKnown);
         this.drawing.draw();
     }
@@ -67,10 +73,10 @@ export class CellMarks {
         if (at) this.app.moved({ ...state.camera, lookAtM: [at[0], at[1], state.camera.lookAtM?.[2] ?? 0] });
     }
 
-    private draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry): void {
-        const found = this.cells;
-        const { shown } = this.app;
-        document.documentElement.dataset['cells'] = String(found?.length ?? 0);
+    private draw(pen: CanvasRenderingContext2D, geometry: ViewGeometry, pane: Pane): void {
+        const found = this.cellsOf(pane);
+        const { shown } = pane;
+        if (pane.isActive) document.documentElement.dataset['cells'] = String(found?.length ?? 0);
         if (!found || !shown) return;
         const plane = planeOf(shown.loaded.grid);
         const pixelOf = (place: Place): Pixel | null => {

@@ -51,7 +51,7 @@ function putTitle(app: App, facts: FactsOfShown): void {
     const local = localText(grid.timeMs);
     const ageS = (app.server.nowMs - grid.timeMs) / 1000;
     const notes = [
-        titleOf(moment),
+        app.state.panes.length > 0 ? '' : titleOf(moment), // each pane has its own title
         grid.isPartial ? texts.partial(ageS < scanS, tiltsOf(facts.known, grid.timeMs)) : '',
         shown.isBetween ? texts.isBetween : '',
     ];
@@ -150,7 +150,7 @@ export function addChoices(app: App, drawing: Drawing, facts: FactsOfShown): voi
             );
     });
     app.on(['view', 'shown', 'choices', 'units'], () => putLayers(drawing));
-    drawing.layers.layerCame.push(() => putLayers(drawing));
+    drawing.share.layerCame.push(() => putLayers(drawing));
     app.on('shown', () => {
         putSites(app, facts);
         askSites();

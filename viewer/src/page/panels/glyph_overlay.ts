@@ -123,17 +123,16 @@ function putKey({ state }: App, pen: CanvasRenderingContext2D, [right, bottom]: 
 }
 
 export function addGlyphs(app: App, drawing: Drawing): void {
-    drawing.addOverlay((pen, geometry) => {
-        const sweep = drawing.drawn?.sweep;
-        const { shown, state } = app;
+    drawing.addOverlay((pen, geometry, { drawn, shown, state, isActive }) => {
+        const sweep = drawn?.sweep;
         const moment = sweepMoment(state.layers, shown?.moment ?? '');
         const { dataset } = document.documentElement;
-        dataset['glyphs'] = '0';
+        if (isActive) dataset['glyphs'] = '0';
         if (!state.layers.hasGlyphs || !sweep || !shown || !isVelocity(moment)) return;
         const [ratio, scale] = [pixelRatio(), 1.15 * textScale()];
         const glyphs = planGlyphs(geometry, sweep, planeOf(shown.loaded.grid), ratio, scale);
         putGlyphs(pen, glyphs, scale);
         putKey(app, pen, [geometry.width / ratio, geometry.height / ratio], scale);
-        dataset['glyphs'] = String(glyphs.length);
+        if (isActive) dataset['glyphs'] = String(glyphs.length);
     });
 }

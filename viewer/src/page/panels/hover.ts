@@ -9,9 +9,11 @@ import { App } from '../app';
 import { element, paragraph, pixelRatio } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
+import { Pane } from '../pane';
 import { Picked, pick } from '../picked';
 import { panelTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
+import { PaneHeads } from './pane_heads';
 
 const restsAfterMs = 120;
 const mostDigits = 6; // decimals of a stored value
@@ -25,6 +27,7 @@ export class Hover {
         private app: App,
         private drawing: Drawing,
         private facts: FactsOfShown,
+        private heads: PaneHeads,
     ) {}
 
     begin(): void {
@@ -40,6 +43,7 @@ export class Hover {
     over(x: number, y: number): void {
         this.hide();
         this.at = [x, y];
+        this.heads.point(this.at, this.drawing.pointed, () => '');
         this.timer = window.setTimeout(() => {
             this.timer = 0;
             this.put();
@@ -51,20 +55,46 @@ export class Hover {
         this.timer = 0;
         this.at = null;
         element('hover').hidden = true;
+        this.heads.hidePointer();
+    }
+
+    // Returns the pane under the pointer.
+    private get pane(): Pane {
+        return this.drawing.panes[this.drawing.pointed] ?? this.drawing.pane;
     }
 
     private put(): void {
         if (!this.at) return;
-        const picked = this.app.isGraphicsLost ? null : pick(this.app, this.drawing, ...this.at, true);
+        const { at, drawing, pane } = this;
+        const picked = this.app.isGraphicsLost ? null : pick(drawing, ...at, true, pane);
+        if (!this.app.isGraphicsLost && drawing.panes.length > 1)
+            this.heads.point(at, pane.index, (other) => this.valueIn(other, at));
         const box = element('hover');
         box.hidden = !picked || picked.lacksCells || (picked.state === null && picked.layer !== 'outside');
         if (!picked || box.hidden) return;
         this.whenTold(() => this.put());
-        box.replaceChildren(...this.lines(picked).map(paragraph));
-        const [x, y] = this.at.map((one) => one / pixelRatio()) as [number, number];
+        box.replaceChildren(...[...this.lines(picked, pane), ...this.linesOfOthers(at, pane)].map(paragraph));
+        const { left, top } = drawing.picture.getBoundingClientRect();
+        const place = drawing.places[pane.index]!;
+        const x = left + (at[0] + place.left) / pixelRatio();
+        const y = top + (at[1] + place.top) / pixelRatio();
         const { width, height } = box.getBoundingClientRect();
         box.style.left = `${Math.max(4, x + 14 + width < window.innerWidth ? x + 14 : x - 14 - width)}px`;
         box.style.top = `${Math.max(4, y + 14 + height < window.innerHeight ? y + 14 : y - 14 - height)}px`;
+    }
+
+    // Returns the lines with the values of the other panes at a pixel.
+    linesOfOthers(at: [number, number], pane = this.drawing.pane): string[] {
+        return this.drawing.panes
+            .filter((other) => other !== pane)
+            .map((other) => this.valueIn(other, at))
+            .filter(Boolean);
+    }
+    // Returns the moment and the value of a pane at a pixel; an empty text if it shows neither echo nor clear air there.
+    private valueIn(pane: Pane, at: [number, number]): string {
+        const picked = pick(this.drawing, ...at, true, pane);
+        if (!picked || picked.lacksCells || picked.state === null) return '';
+        return this.told(picked, pane);
     }
 
     // Calls `again` once the facts for beam, time and error have come. Does not call `again` if the facts are here
@@ -75,29 +105,30 @@ export class Hover {
         (isRegional ? this.facts.askSites() : this.facts.ask()).then(again, () => undefined);
     }
 
-    // Returns the lines about a place: value, layer, beam, time and stated error.
-    lines(picked: Picked): string[] {
-        const { app } = this;
-        const { units } = app.state;
+    // Returns the value under the pointer, with the moment if there are several panes.
+    private told({ layer, state, value }: Picked, { unit, state: { units }, shown }: Pane): string {
+        const isMixed = layer === 'plane' || layer === 'section' || layer === 'maximum';
+        const told =
+            state === CellState.value
+                ? valueText(value, unit, units, isMixed ? mixedDigits : mostDigits)
+                : stateText(state ?? CellState.notSeen);
+        return this.drawing.panes.length > 1 ? `${shown?.moment ?? ''} ${told}` : told;
+    }
+
+    // Returns the lines about a place of a pane: value, layer, beam, time and stated error.
+    lines(picked: Picked, pane = this.drawing.pane): string[] {
+        const { units } = pane.state;
         const words = panelTexts.hover;
         const { layer, state, value, heightM, gate } = picked;
-        const way = nearestTo(app.shown?.loaded.grid.sites ?? [], picked.place);
+        const way = nearestTo(pane.shown?.loaded.grid.sites ?? [], picked.place);
         const from = way
             ? [words.from(distanceText(way.way.distanceM, units), (way.way.azimuth * 180) / Math.PI, way.site.icao)]
             : [];
         if (layer === 'outside') return [words.outside, ...from];
-        const told =
-            state === CellState.value
-                ? valueText(
-                      value,
-                      app.unit,
-                      units,
-                      layer === 'plane' || layer === 'section' || layer === 'maximum' ? mixedDigits : mostDigits,
-                  )
-                : stateText(state ?? CellState.notSeen);
+        const told = this.told(picked, pane);
         if (layer === 'ground')
             return [
-                state === CellState.value ? words.hidden(told, this.isBelowShown(value)) : words.ground(told),
+                state === CellState.value ? words.hidden(told, isBelowShown(pane, value)) : words.ground(told),
                 ...from,
             ];
         // Give no height for range folded air, because the ray may cross such air at many heights.
@@ -109,13 +140,7 @@ export class Hover {
         if (layer !== 'volume' && layer !== 'sweep') lines.push(words.layers[layer]);
         if (picked.halvings > 0) lines.push(words.greatestOf(picked.halvings));
         if (gate) return [...lines, ...this.gateLines(gate)];
-        return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, from) : from)];
-    }
-
-    // Returns true if a value is below the shown range, rather than too transparent to see.
-    private isBelowShown(value: number): boolean {
-        const { state, shownTable: table } = this.app;
-        return value < Math.max(state.least ?? -Infinity, table?.bar_begin ?? -Infinity);
+        return [...lines, ...(isAtOne && state === CellState.value ? this.beamLines(picked, pane, from) : from)];
     }
 
     // Returns the time of day. It is not an age, because the text may stay on the page.
@@ -137,10 +162,11 @@ export class Hover {
 
     // Returns the lines about the beam. If the facts list no sweeps, it is unknown whether any beam had this elevation.
     // The lines then have `from`, the way from the site, instead of the beam.
-    private beamLines(picked: Picked, from: string[]): string[] {
-        const { units } = this.app.state;
-        const { known } = this.facts;
-        const beam = beamReading(this.app.shown?.loaded.grid.sites ?? [], known, picked.place, picked.heightM);
+    private beamLines(picked: Picked, pane: Pane, from: string[]): string[] {
+        const { units } = pane.state;
+        // The facts are those of the active pane.
+        const known = pane.isActive ? this.facts.known : null;
+        const beam = beamReading(pane.shown?.loaded.grid.sites ?? [], known, picked.place, picked.heightM);
         if (!beam) return [];
         const told = (sweepDeg: number) =>
             panelTexts.hover.beam(
@@ -160,4 +186,9 @@ export class Hover {
         }
         return lines;
     }
+}
+
+// Returns true if a value is below the shown range, rather than too transparent to see.
+function isBelowShown({ state, shownTable: table }: Pane, value: number): boolean {
+    return value < Math.max(state.least ?? -Infinity, table?.bar_begin ?? -Infinity);
 }

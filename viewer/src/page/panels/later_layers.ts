@@ -8,8 +8,8 @@ import { addGlyphs } from './glyph_overlay';
 import { SectionPlot } from './section_plot';
 
 export function begin(app: App, drawing: Drawing): void {
-    new SectionPlot(app, drawing.windows).put();
+    new SectionPlot(app, drawing).put();
     addGlyphs(app, drawing);
     new CellMarks(app, drawing).begin();
-    drawing.layers.makeRotation = rotationOf;
+    drawing.share.makeRotation = rotationOf;
 }

@@ -17,6 +17,8 @@ import { addLoopEnds } from './loop_ends';
 import { OverlayRows } from './overlay_rows';
 import { Reader } from './reader';
 import { addScale } from './scale_mark';
+import { PaneHeads } from './pane_heads';
+import { addPaneChoice } from './pane_choice';
 import { ScanPanel } from './scan_panel';
 import { addShare } from './share';
 import { StationLine } from './station_line';
@@ -36,7 +38,8 @@ export interface PageParts {
 }
 
 export function begin({ app, drawing, facts, keys, pointers }: PageParts): void {
-    const hover = new Hover(app, drawing, facts);
+    const heads = new PaneHeads(app, drawing);
+    const hover = new Hover(app, drawing, facts, heads);
     const reader = new Reader(app, drawing, hover);
     const editing = new TableEditing(app);
     addLook(app, drawing, keys, editing);
@@ -53,6 +56,8 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     addScale(app, drawing);
     addTilts(app, drawing, keys);
     new TimeTracks(app, drawing).begin();
+    addPaneChoice(app, drawing, keys);
+    heads.begin();
     addEditor(app, drawing, editing, keys);
     keys.add('Escape', () => pointers.use(null));
     for (const [id, tip] of Object.entries(panelTexts.tips)) element(id).title = tip;

@@ -83,10 +83,10 @@ export class LayersPanel {
         element('layers-open').addEventListener('click', () => this.open(this.box.hidden));
         element('open').addEventListener('click', () => this.open(false));
         this.addLayers(keys);
-        addMarks(this.app, this.drawing);
+        addMarks(this.drawing);
         this.pointers.setGrip(new SectionGrip(this.app, this.drawing));
         this.app.on(['view', 'shown', 'choices', 'units'], () => this.put());
-        this.drawing.layers.layerCame.push(() => this.put());
+        this.drawing.share.layerCame.push(() => this.put());
         this.put();
     }
 

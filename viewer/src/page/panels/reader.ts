@@ -72,7 +72,8 @@ function keyTable(title: string, rows: readonly (readonly [string, string])[]): 
 
 export class Reader implements Tool {
     private at: Plane | null = null; // place of the last click, in meters from the middle of the grid
-    private picked: { of: Shown; what: Picked } | null = null; // reading of the last click, and its grid
+    // Reading of the last click, its grid, and the values of the other panes.
+    private picked: { of: Shown; what: Picked; others: string[] } | null = null;
     private waits: [number, number] | null = null; // pixel of a click for which cells along the ray have not come
     private domain = '';
     private close = labeledButton('reading-close', '×', panelTexts.close, () => this.leave());
@@ -110,10 +111,11 @@ export class Reader implements Tool {
         this.pointed.hide();
     }
     click(x: number, y: number): void {
-        const what = pick(this.app, this.drawing, x, y, true);
+        const what = pick(this.drawing, x, y, true);
         const { shown } = this.app;
         this.waits = what?.lacksCells ? [x, y] : null;
-        this.picked = what && shown && !this.waits ? { of: shown, what } : null;
+        const others = this.pointed.linesOfOthers([x, y]);
+        this.picked = what && shown && !this.waits ? { of: shown, what, others } : null;
         this.at = what?.at ?? null;
         this.put();
         this.drawing.drawMarks();
@@ -178,7 +180,10 @@ export class Reader implements Tool {
         const body = make('div');
         // Tell the reading of the click only while the same grid is shown. Read the column in each new grid.
         const { picked } = this;
-        const said = picked?.of === shown && picked.what.state !== null ? this.pointed.lines(picked.what) : [];
+        const said =
+            picked?.of === shown && picked.what.state !== null
+                ? [...this.pointed.lines(picked.what), ...picked.others]
+                : [];
         if (picked?.of === shown) this.pointed.whenTold(() => this.at === at && this.put());
         const from = said.length === 0 ? this.fromRadar(place) : '';
         if (near || from) body.append(paragraph([near, from].filter(Boolean).join(', ')));

@@ -14,7 +14,7 @@ const tick = 5; // pixels
 export function addScale(app: App, drawing: Drawing): void {
     const place = make('div', { id: 'scale' });
     drawing.labels.after(place);
-    drawing.addOverlay((pen, geometry) => {
+    drawing.addFurniture((pen, geometry) => {
         const { shown, state } = app;
         if (!shown || !state.hasGround) return;
         const { right, bottom, width } = place.getBoundingClientRect();

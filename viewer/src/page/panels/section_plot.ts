@@ -8,9 +8,9 @@ import { distanceText, heightText, valueText } from '../../tables/units';
 import { CellState } from '../../wire/packed_grid';
 import { App } from '../app';
 import { fontOf, labeledButton, make, pixelRatio, press, textScale } from '../dom';
+import { Drawing } from '../drawing';
 import { plotTexts } from '../later_texts';
 import { stateText, texts } from '../texts';
-import { Windows } from '../windows';
 
 const [left, right, top, bottom] = [34, 12, 8, 22]; // room for the axes, in pixels of the page
 const keyStep = 4;
@@ -69,7 +69,7 @@ export class SectionPlot {
 
     constructor(
         private app: App,
-        private windows: Windows,
+        private drawing: Drawing,
     ) {
         document.querySelector('main')!.append(this.box);
         this.canvas.addEventListener('pointermove', (event) =>
@@ -92,7 +92,7 @@ export class SectionPlot {
         const { shown, table, state } = this.app;
         const ends = state.layers.section;
         const hasBeenHidden = this.box.hidden;
-        const cells = shown && ends && this.windows.along(shown.loaded, ends);
+        const cells = shown && ends && this.drawing.windows.along(shown.loaded, ends);
         this.box.hidden = !cells || !table;
         if (!cells || !table) {
             this.drawn = [];

@@ -9,7 +9,7 @@ import { App } from '../app';
 import { button, element, make, saveFile } from '../dom';
 import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
-import { snapshotOf } from '../snapshot';
+import { snapshotOf, snapshotOfPanes } from '../snapshot';
 import { TableEditing } from '../table_editing';
 import { panelTexts } from '../later_texts';
 
@@ -29,9 +29,13 @@ function save(app: App, drawing: Drawing): void {
     drawing.whenFine(
         () => {
             if (!app.shown) return;
-            const { domain, moment, time } = app.shown;
-            const download = `${domain}_${moment}_${time.replace(/:/g, '')}.png`;
-            const href = snapshotOf(drawing.picture, drawing.labels).toDataURL('image/png');
+            const { domain, time } = app.shown;
+            const { panes, picture, labels } = drawing;
+            const moments = panes.map(({ shown }) => shown?.moment).filter(Boolean);
+            const download = `${domain}_${moments.join('-')}_${time.replace(/:/g, '')}.png`;
+            const heads = [...document.querySelectorAll<HTMLElement>('.pane')];
+            const taken = panes.length > 1 ? snapshotOfPanes(picture, labels, heads) : snapshotOf(picture, labels);
+            const href = taken.toDataURL('image/png');
             make('a', { download, href }).click();
         },
         () => app.say(panelTexts.notSaved),
@@ -105,6 +109,7 @@ function copyCommand(app: App, drawing: Drawing, editing: TableEditing, rawFile:
     const raw = rawFile.known;
     const notes = [raw ? panelTexts.commandReads(raw) : panelTexts.commandReadsCache];
     if (!state.layers.hasVolume && !state.layers.section) notes.push(panelTexts.commandFlat);
+    if (drawing.panes.length > 1) notes.push(panelTexts.panes.command);
     if (drawing.shapes?.isOn) notes.push(panelTexts.commandOverlays);
     const give = (colors: string, ...of: string[]) =>
         copy(

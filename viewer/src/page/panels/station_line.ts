@@ -29,7 +29,7 @@ export class StationLine {
         element('title').after(this.line);
         this.app.on(['shown', 'time'], () => void this.ask());
         this.app.on(['view', 'units'], () => this.put());
-        this.drawing.layers.layerCame.push(() => this.put());
+        this.drawing.share.layerCame.push(() => this.put());
         void this.ask();
     }
 
@@ -44,7 +44,9 @@ export class StationLine {
         const { sites } = shown.loaded.grid;
         // If one of the two answers fails, the line shows the other alone.
         const rows =
-            isDoppler(shown.moment) && sites.length === 1 ? this.drawing.layers.rowsOf(shown, sites[0]!.icao) : null;
+            isDoppler(shown.moment) && sites.length === 1
+                ? this.drawing.share.store.rowsOf(shown, sites[0]!.icao)
+                : null;
         const found = await Promise.allSettled([rows, this.facts.ask()]);
         if (!isOurs()) return;
         if (found[0].status === 'fulfilled') this.rows = found[0].value?.rows ?? [];

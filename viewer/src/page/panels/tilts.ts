@@ -113,6 +113,6 @@ export function addTilts(app: App, drawing: Drawing, keys: Keys): void {
         for (const [id, , , by] of ways) element(id).setAttribute('aria-disabled', String(!isOff && !next(by)));
     };
     app.on(['view', 'shown', 'choices'], put);
-    drawing.layers.layerCame.push(put);
+    drawing.share.layerCame.push(put);
     put();
 }

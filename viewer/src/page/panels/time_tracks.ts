@@ -53,7 +53,7 @@ export class TimeTracks {
         app.on('shown', () => void this.putCuts());
         app.on('view', () => this.putShownCut());
         app.on('time', () => !app.player.isPlaying && this.cutsOf !== app.shown && void this.putCuts());
-        this.drawing.layers.layerCame.push(() => this.putShownCut());
+        this.drawing.share.layerCame.push(() => this.putShownCut());
         new ResizeObserver(() => this.put()).observe(this.slider);
         this.put();
         void this.putCuts();
@@ -180,7 +180,7 @@ export class TimeTracks {
             return this.cuts.replaceChildren();
         }
         try {
-            const { rows } = await this.drawing.layers.rowsOf(shown, site.icao);
+            const { rows } = await this.drawing.share.store.rowsOf(shown, site.icao);
             if (this.cutsOf === shown) this.putRows(rows);
         } catch {
             if (this.cutsOf === shown) this.say(panelTexts.scan.none);
