@@ -63,10 +63,18 @@ export class Pane implements LayerSource {
         this.app.fail(error);
     }
 
+    // Returns true if the server lacks the pane's moment at the shown time.
+    get isAbsent(): boolean {
+        const { shown } = this.app;
+        return !this.isActive && shown !== null && (!this.isInDomain || this.missing.has(this.keyAt(shown)));
+    }
+    private get isInDomain(): boolean {
+        return this.domain?.moments.some(({ moment }) => moment === this.state.moment) ?? false;
+    }
     // Returns true if the picture of the pane has all layers, or if the server lacks the pane's moment.
     get isComplete(): boolean {
         const { shown, state } = this;
-        if (!shown) return !this.isActive;
+        if (!shown) return this.isAbsent;
         return !this.layers.isWaiting && shown.moment === state.moment && shown.domain === state.domain;
     }
 
@@ -92,7 +100,7 @@ export class Pane implements LayerSource {
     // not there. `geometryOf` returns the camera for a grid.
     alongside(next: Shown, isAhead: boolean, geometryOf: (loaded: LoadedGrid) => ViewGeometry): Promise<void> | null {
         const { moment } = this.state;
-        if (!this.domain?.moments.some((one) => one.moment === moment)) return null;
+        if (!this.isInDomain) return null;
         const key = this.keyAt(next);
         const layersOf = (): Promise<void> | null => {
             const shown = this.beside(next);

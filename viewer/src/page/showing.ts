@@ -116,15 +116,14 @@ export class Showing {
         }
     }
     shownOf(time: string, loaded: LoadedGrid): Shown {
-        const { domain, moment } = this.app.state;
-        return {
-            key: Loader.key(domain, moment, time),
-            loaded,
-            domain,
-            moment,
-            time,
-            isBetween: this.app.timeline.isBetween(time),
-        };
+        const { shown, nextCut, state } = this.app;
+        const { domain, moment } = state;
+        const key = Loader.key(domain, moment, time);
+        const isBetween = this.app.timeline.isBetween(time);
+        // Keep the shown picture if it is the same, so that a reading of it stays.
+        if (shown?.key === key && shown.loaded === loaded && shown.isBetween === isBetween && nextCut === undefined)
+            return shown;
+        return { key, loaded, domain, moment, time, isBetween };
     }
     load(time: string): Promise<LoadedGrid> {
         const { app } = this;

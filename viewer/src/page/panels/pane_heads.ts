@@ -109,7 +109,7 @@ export class PaneHeads {
             if (hasFocus) moments.querySelector<HTMLElement>('[aria-pressed="true"]')?.focus();
             putList(list, all, state.moment, isWide);
         }
-        const what = shown ? toldOf(pane) : words.nothing(titleOf(state.moment));
+        const what = shown ? toldOf(pane) : pane.isAbsent ? words.nothing(titleOf(state.moment)) : texts.loading;
         told.textContent = what;
         box.dataset['title'] = [shown ? titleOf(shown.moment) : '', what].filter(Boolean).join('  ');
         if (table) bar.show(table, shownUnit(table.unit, state.units), state.least, endsOf(shown?.moment ?? ''));
