@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -236,6 +237,32 @@ TEST_F(StationDoorTest, DecodingIsForLongWorkersAndKeptChunksAreNot) {
         ASSERT_TRUE(answer) << "needs no long worker";
         EXPECT_EQ(answer->status, 404U);
     }
+}
+
+TEST_F(StationDoorTest, ManyThreadsMayReadOneVolume) {
+    take_sequence(0, 2);
+    const std::vector<std::string> keys = {"zarr.json",
+                                           "VCP-21/sweep_4/DBZH/c/0/0/0",
+                                           "VCP-21/sweep_4/VRADH/c/0/0/0",
+                                           "VCP-21/sweep_4/time/c/0/0",
+                                           "VCP-21/sweep_5/DBZH/c/0/0/0",
+                                           "VCP-21/sweep_4/DBZH/c/1/0/0",
+                                           "VCP-21/sweep_4/DBZH/c/0/0/0",
+                                           "VCP-21/sweep_9/RHOHV/c/0/0/0"};
+    (void)door();
+    std::vector<Answer> answers(keys.size());
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        threads.emplace_back([&, i] { answers[i] = get("KBGM/" + keys[i]); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const Answer alone = get("KBGM/" + keys[i]);
+        EXPECT_EQ(answers[i].status, alone.status) << keys[i];
+        EXPECT_EQ(body_of(answers[i]), body_of(alone)) << keys[i];
+    }
+    EXPECT_EQ(answers[1].status, 200U);
+    EXPECT_EQ(answers.back().status, 404U) << "no radar measured correlations then";
 }
 
 // A program that opened the tree holds indices.
