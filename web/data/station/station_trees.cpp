@@ -177,6 +177,7 @@ Result<StationTrees::Tree> StationTrees::make(const ServedCatalog::Reader& catal
         Known& of_pattern = known[key];
         learn(*catalog, volumes, of_pattern);
         if (!of_pattern.facts) continue;  // no file could be read
+        if (tree->groups.size() + of_pattern.places->all().size() > most_groups) continue;
         StationPattern pattern{
             .name = key.first ? std::string{"VCP-unknown"} : fmt::format("VCP-{}", key.second),
             .places = of_pattern.places,

@@ -75,8 +75,9 @@ class StationTrees {
   public:
     using Tree = std::shared_ptr<const StationTree>;
     static constexpr std::size_t most_volumes = 100'000;
-    // Limits of what a hostile archive can make the server learn of one station.
-    static constexpr std::size_t most_patterns = 64, most_sizes = 64;
+    // Limits of what a hostile archive can make the server learn of one station, and send as
+    // metadata. Patterns beyond a limit are left out.
+    static constexpr std::size_t most_patterns = 64, most_sizes = 64, most_groups = 2000;
 
     explicit StationTrees(StationTreesOptions options);
 
