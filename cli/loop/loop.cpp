@@ -42,7 +42,10 @@ Status draw_all(LoopGrids& grids, const LoopOptions& options, const LoopScene& s
     if (!cameras) return pass_on(cameras);
     auto shapes = render::read_shapes(options.scene);
     if (!shapes) return pass_on(shapes);
-    Drawing drawing{shown.scene, {}, {}, {}, {}, {}, std::move(*shapes)};
+    Drawing drawing;
+    drawing.scene = shown.scene;
+    drawing.shapes = std::move(*shapes);
+    drawing.store = grids.store;
     if (render::marks_cells(options.scene)) {
         drawing.cells.emplace(*grids.store, grids.domain,
                               chosen_freezing_levels(options.scene, shown.scene));
@@ -345,9 +348,8 @@ Result<render::Scene> check(LoopOptions& options) {
     if (auto fine = check_sums(*scene); !fine) return pass_on(fine);
     if (auto fine = check_sweeps(options, *scene); !fine) return pass_on(fine);
     const bool makes_grids = options.archive.asked() || !options.files.empty();
-    if (auto fine = makes_grids ? render::check_stored_motion(options.scene, scene->product)
-                                : render::check_stored_derivation(options.scene, scene->product);
-        !fine)
+    if (makes_grids) return scene;
+    if (auto fine = render::check_stored_derivation(options.scene, scene->product); !fine)
         return pass_on(fine);
     return scene;
 }

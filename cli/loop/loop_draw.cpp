@@ -3,6 +3,8 @@
 #include "base/steady_time.h"
 #include "cli/picture/drawn_frames.h"
 #include "cli/picture/picture.h"
+#include "cli/shared/commands.h"
+#include "pipeline/mosaic/hail_of_frame.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/export/cell_text.h"
 #include "stormcellar/render/render.h"
@@ -14,24 +16,51 @@ namespace {
 struct FrameGrid {
     std::optional<cache::GridFile> file;
     const pipeline::MosaicFrame* made = nullptr;
+    std::optional<pipeline::HailFrame> hail;  // of the radars of `file`
 
     [[nodiscard]] const cache::GridDescription& description() const {
+        if (hail) return hail->description;
         return file ? file->description() : made->description;
     }
     [[nodiscard]] grid::BrickView view() const {
+        if (hail) return hail->bricks.view();
         return file ? file->view() : made->mosaic.cells.view();
     }
     [[nodiscard]] Status check_whole() const { return file ? file->check_whole() : Status{}; }
 };
 
+// Merges the hail of the radars if the grid is a mosaic and the product shows hail. Keeps the
+// merged reflectivity, and notes that once, if the cache no longer has the grids of the radars.
+Status merge_hail(const std::string& domain, const LoopOptions& options, Drawing& drawing,
+                  FrameGrid& grid) {
+    const bool is_hail = render::facts_of(drawing.scene.product).hail != nullptr;
+    if (!is_hail || !drawing.store || !pipeline::is_of_several(grid.description())) return {};
+    auto hail = pipeline::hail_of_frame(*drawing.store,
+                                        {.domain = domain,
+                                         .levels = drawing.scene.freezing_levels,
+                                         .threads = render::thread_count(options.scene)},
+                                        grid.description(), grid.view());
+    if (hail) {
+        grid.hail.emplace(std::move(*hail));
+        return {};
+    }
+    const ErrorCode code = hail.error().code;
+    if (code != ErrorCode::not_found && code != ErrorCode::over_budget) return pass_on(hail);
+    if (!drawing.lacks_hail) print_note(pipeline::merged_reflectivity_note + hail.error().message);
+    drawing.lacks_hail = true;
+    return {};
+}
+
 // Returns the grid of a frame. Errors: also not_found if no volume is near the instant.
-Result<FrameGrid> grid_of(const LoopFrame& frame, std::optional<pipeline::BetweenGrids>& between,
-                          Drawing& drawing) {
+Result<FrameGrid> grid_of(const LoopFrame& frame, const LoopOptions& options,
+                          std::optional<pipeline::BetweenGrids>& between, Drawing& drawing) {
     FrameGrid grid;
     if (frame.stored) {
         auto file = cache::GridFile::open(frame.stored->path);
         if (!file) return pass_on(file);
         grid.file.emplace(std::move(*file));
+        if (Status merged = merge_hail(frame.stored->domain, options, drawing, grid); !merged)
+            return pass_on(merged);
         return grid;
     }
     if (!drawing.made || drawing.made_for != frame.time) {
@@ -61,7 +90,7 @@ Result<std::optional<render::Image>> draw(const LoopFrame& frame, const LoopOpti
             {frame.stored ? frame.stored->path : std::filesystem::path{}, error.message});
         return std::optional<render::Image>{};
     };
-    const auto grid = grid_of(frame, between, drawing);
+    const auto grid = grid_of(frame, options, between, drawing);
     (frame.stored ? report.read_s : report.between_s) += seconds_since(start);
     if (!grid) return skip(grid.error());
     const auto opened = steady_now();

@@ -10,6 +10,7 @@
 #include "cli/picture/stored_cells.h"
 #include "render/frame/frame_cache.h"
 #include "stormcellar/base/result.h"
+#include "stormcellar/cache/store.h"
 #include "stormcellar/render/image.h"
 #include "stormcellar/render/scene.h"
 
@@ -22,8 +23,10 @@ struct Drawing {
     // The last grid that was made between volumes, and its time.
     std::optional<pipeline::MosaicFrame> made;
     UtcTime made_for{};
-    RotationTrack track;               // of the frames so far, for a product over time
-    std::optional<StoredCells> cells;  // storm cells to mark
+    RotationTrack track;                      // of the frames so far, for a product over time
+    std::optional<StoredCells> cells;         // storm cells to mark
+    std::optional<cache::StoreReader> store;  // has the grids of the radars of a mosaic
+    bool lacks_hail = false;                  // of single radars, which was noted
     std::optional<render::ShapeOverlay> shapes;
 };
 

@@ -1,5 +1,7 @@
 #include "cli/picture/frame_sources.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "base/printable.h"
@@ -12,6 +14,7 @@
 #include "cli/shared/cache_domain.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/query_options.h"
+#include "pipeline/mosaic/hail_of_frame.h"
 #include "stormcellar/base/utc_time.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/cache/store.h"
@@ -101,6 +104,25 @@ Status find_stored_cells(const cache::StoreReader& store, const FrameOptions& op
     return {};
 }
 
+// Merges the hail of the radars if the grid is a mosaic and the product shows hail.
+Result<PictureGrid> with_merged_hail(const cache::StoreReader& store, const FrameOptions& options,
+                                     const render::Scene& scene, PictureGrid grid) {
+    const bool is_hail = render::facts_of(scene.product).hail != nullptr;
+    if (!is_hail || !pipeline::is_of_several(grid.description())) return grid;
+    auto hail = pipeline::hail_of_frame(store,
+                                        {.domain = options.domain,
+                                         .levels = scene.freezing_levels,
+                                         .threads = render::thread_count(options.scene)},
+                                        grid.description(), grid.view());
+    if (hail)
+        return PictureGrid::of_bricks(options.domain, std::move(hail->description),
+                                      std::move(hail->bricks));
+    const ErrorCode code = hail.error().code;
+    if (code != ErrorCode::not_found && code != ErrorCode::over_budget) return pass_on(hail);
+    print_note(pipeline::merged_reflectivity_note + hail.error().message);
+    return grid;
+}
+
 // Returns the grid. If no grid matched, reports that and returns none.
 Result<FrameGrids> stored_grid(FrameOptions& options, const render::Scene& scene) {
     if (Status none = refuse_grid_options(options); !none) return pass_on(none);
@@ -115,7 +137,9 @@ Result<FrameGrids> stored_grid(FrameOptions& options, const render::Scene& scene
     }
     auto grid = PictureGrid::open((*entry)->path);
     if (!grid) return pass_on(grid);
-    grids.shown = std::move(*grid);
+    auto hail = with_merged_hail(*store, options, scene, std::move(*grid));
+    if (!hail) return pass_on(hail);
+    grids.shown = std::move(*hail);
     if (Status found = find_stored_cells(*store, options, scene, grids); !found)
         return pass_on(found);
     if (!options.rotation) return grids;
@@ -219,6 +243,20 @@ Result<FrameGrids> stored_rain(FrameOptions& options) {
     return grids;
 }
 
+// Tells which melting layer the classes of hydrometeors have, and where snow melts if hail assumes
+// another height. Asks for --freezing-levels if they would change the picture.
+void print_layer_notes(const FrameOptions& options, const std::vector<std::string>& notes) {
+    constexpr std::string_view ask = "; give --freezing-levels";
+    for (const std::string& note : notes) {
+        if (!note.starts_with(retrieve::hydrometeor_words)) continue;
+        const bool may_ask = retrieve::assumed_zero_c_in_notes(std::array{note}) &&
+                             !render::chooses_levels(options.scene);
+        print_note(fmt::format("{}{}", note, may_ask ? ask : ""));
+    }
+    const std::string zero_c = retrieve::zero_c_in_notes(notes);
+    if (!zero_c.empty()) print_note(fmt::format("{}{}", zero_c, ask));
+}
+
 Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& scene) {
     take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
@@ -255,11 +293,7 @@ Result<FrameGrids> grid_of_files(FrameOptions& options, const render::Scene& sce
             grids.shear = std::move(made->shear);
         }
     }
-    for (const std::string& note : grids.shown->description().provenance.notes)
-        if (note.starts_with(retrieve::hydrometeor_words)) print_note(note);
-    const std::string zero_c =
-        retrieve::zero_c_in_notes(grids.shown->description().provenance.notes);
-    if (!zero_c.empty()) print_note(zero_c + "; give --freezing-levels");
+    print_layer_notes(options, grids.shown->description().provenance.notes);
     options.domain = grids.shown->name();
     return grids;
 }
@@ -307,25 +341,50 @@ Result<std::vector<PictureGrid>> grids_of_panels(FrameOptions& options,
     if (options.rotation)
         return fail(ErrorCode::bad_argument, "--rotation is for one picture, not for panels");
     if (Status taken = take_sources(options); !taken) return pass_on(taken);
+    const render::Scene& scene = panels.front().scene;
+    const render::ProductFacts& product = render::facts_of(scene.product);
+    if (product.is_over_time)
+        return fail(ErrorCode::bad_argument, "{} is for one picture, not for panels", product.name);
     if (options.grid.files.empty()) {
         if (Status none = refuse_grid_options(options); !none) return pass_on(none);
-        if (render::facts_of(panels.front().scene.product).is_of_sweep) {
+        if (product.is_of_sweep) {
             return fail(ErrorCode::bad_argument,
                         "panels of sweeps are drawn of a Level II file; name it");
         }
-        const Status fits = check_stored_derivation(options.scene, panels.front().scene.product);
+        const Status fits = check_stored_derivation(options.scene, scene.product);
         if (!fits) return pass_on(fits);
         const auto store = open_store(options);
         if (!store) return pass_on(store);
         const auto until = until_of(options);
         if (!until) return pass_on(until);
-        return stored_panels(*store, options.domain, panels, *until);
+        auto grids = stored_panels(*store, options.domain, panels, *until);
+        if (!grids) return grids;
+        for (PictureGrid& grid : *grids) {
+            auto hail = with_merged_hail(*store, options, scene, std::move(grid));
+            if (!hail) return pass_on(hail);
+            grid = std::move(*hail);
+        }
+        return grids;
     }
     take_moment(options.scene, options.grid);
     options.grid.threads = render::thread_count(options.scene);
     options.grid.time = options.time;
+    if (product.hail != nullptr) {
+        options.grid.assumed_zero_c_m = scene.freezing_levels.zero_c_m;
+        options.grid.moment = level2::moment_name(scene.moment);
+        auto hail = hail_grid_of_files(options.grid, scene.freezing_levels);
+        if (!hail) return pass_on(hail);
+        print_layer_notes(options, hail->description().provenance.notes);
+        options.domain = hail->name();
+        std::vector<PictureGrid> grids;  // hail is made of reflectivity, so there is one panel
+        grids.push_back(std::move(*hail));
+        return grids;
+    }
     auto grids = gridded_panels(options.grid, panels);
-    if (grids) options.domain = grids->front().name();
+    if (!grids) return grids;
+    for (const PictureGrid& grid : *grids)
+        print_layer_notes(options, grid.description().provenance.notes);
+    options.domain = grids->front().name();
     return grids;
 }
 

@@ -8,13 +8,12 @@
 
 #include "cli/grid/grid_files.h"
 #include "pipeline/keep/geometry_cache.h"
+#include "pipeline/mosaic/hail_of_frame.h"
 #include "pipeline/plan/mosaic_of_volumes.h"
 #include "retrieve/hail/hail_mosaic.h"
 
 namespace stormcellar::cli {
 namespace {
-
-constexpr const char* maximum_note = "hail of several radars, merged by maximum";
 
 std::vector<pipeline::SceneVolume> volumes_of(const std::vector<pipeline::SceneVolume>& all,
                                               const std::string& icao) {
@@ -38,7 +37,7 @@ Status take_largest_hail(const std::vector<pipeline::SceneVolume>& volumes,
         if (!of_site) return pass_on(of_site);
         if (Status added = hail->add(of_site->grid, mosaic); !added) return added;
     }
-    mosaic.provenance.notes.emplace_back(maximum_note);
+    mosaic.provenance.notes.emplace_back(pipeline::merged_hail_note);
     return {};
 }
 

@@ -117,8 +117,8 @@ Result<std::vector<PictureGrid>> nowcast_grids(NowcastSource& source) {
     auto grids = names->files.empty() ? grids_of_domain(source, *until)
                                       : grids_of_files(source.grid, names->files);
     if (!grids) return grids;
-    std::ranges::stable_sort(*grids, {},
-                             [](const PictureGrid& grid) { return middle_of(grid.description()); });
+    std::ranges::stable_sort(
+        *grids, {}, [](const PictureGrid& grid) { return render::middle_of(grid.description()); });
     std::erase_if(*grids, [&](const PictureGrid& grid) {
         return *until && grid.description().time > **until;
     });
@@ -130,7 +130,7 @@ Result<std::vector<PictureGrid>> nowcast_grids(NowcastSource& source) {
 std::vector<retrieve::TimedGrid> timed_grids(const std::vector<PictureGrid>& grids) {
     std::vector<retrieve::TimedGrid> timed;
     for (const PictureGrid& grid : grids)
-        timed.push_back({grid.view(), middle_of(grid.description())});
+        timed.push_back({grid.view(), render::middle_of(grid.description())});
     return timed;
 }
 

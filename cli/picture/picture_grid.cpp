@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "cli/grid/grid_files.h"
-#include "cli/picture/rain_total_grid.h"
 #include "cli/picture/rotation_track.h"
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/gridder.h"
@@ -59,11 +58,6 @@ bool has_picture_grid_options(const GridOptions& options) {
            !options.site.position.empty();
 }
 
-UtcTime middle_of(const cache::GridDescription& grid) {
-    if (grid.provenance.recipe != 0 || grid.end_time <= grid.start_time) return grid.time;
-    return grid.start_time + (grid.end_time - grid.start_time) / 2;
-}
-
 PictureGrid::PictureGrid(std::unique_ptr<Stored> stored) : stored_(std::move(stored)) {}
 PictureGrid::PictureGrid(std::unique_ptr<Made> made) : made_(std::move(made)) {}
 PictureGrid::PictureGrid(std::unique_ptr<Swept> swept) : swept_(std::move(swept)) {}
@@ -84,6 +78,7 @@ void take_moment(const render::SceneOptions& scene, GridOptions& grid) {
     const bool is_automatic = scene.storm_motion == retrieve::automatic_motion;
     grid.storm_motion = is_automatic ? "" : scene.storm_motion;
     grid.quality = scene.quality;
+    grid.zero_c_m = scene.scene.freezing_levels.zero_c_m;
 }
 
 Result<PictureGrid> PictureGrid::make(GridOptions options) {
@@ -135,11 +130,16 @@ Result<std::vector<PictureGrid>> PictureGrid::make_by_time(const GridOptions& op
     return grids;
 }
 
-Result<PictureGrid> PictureGrid::of_rain(std::string name, const RainTotalGrid& total) {
+Result<PictureGrid> PictureGrid::of_rain(std::string name, const render::RainTotalGrid& total) {
     auto bricks = total.bricks();
     if (!bricks) return pass_on(bricks);
-    return PictureGrid(
-        std::make_unique<Made>(Made{std::move(name), total.description(), std::move(*bricks), {}}));
+    return of_bricks(std::move(name), total.description(), std::move(*bricks));
+}
+
+PictureGrid PictureGrid::of_bricks(std::string name, cache::GridDescription description,
+                                   grid::BrickGrid bricks) {
+    return PictureGrid(std::make_unique<Made>(
+        Made{std::move(name), std::move(description), std::move(bricks), {}}));
 }
 
 Result<PictureGrid> PictureGrid::make_track(const GridOptions& options) {

@@ -14,8 +14,10 @@
 #include "cli/grid/volume_source.h"
 #include "cli/picture/swept_volume.h"
 #include "render/options/scene_options.h"
+#include "render/products/rain_total_grid.h"
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
+#include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/grid/brick_view.h"
 #include "stormcellar/render/scene.h"
 
@@ -29,11 +31,6 @@ void add_picture_grid_options(CLI::App& app, GridOptions& options);
 
 // Copies into the grid's options the scene's moment, how it is dealiased, and its storm motion.
 void take_moment(const render::SceneOptions& scene, GridOptions& grid);
-
-// Returns the middle of the time that the grid's volume took, or the instant of a mosaic's frame.
-[[nodiscard]] UtcTime middle_of(const cache::GridDescription& grid);
-
-class RainTotalGrid;
 
 class PictureGrid {
   public:
@@ -53,7 +50,11 @@ class PictureGrid {
     [[nodiscard]] static PictureGrid of_grid(grid::Grid grid, std::vector<SourceVolume> volumes,
                                              int threads);
     // Returns the total under a name. Errors: those of RainTotalGrid::bricks().
-    [[nodiscard]] static Result<PictureGrid> of_rain(std::string name, const RainTotalGrid& total);
+    [[nodiscard]] static Result<PictureGrid> of_rain(std::string name,
+                                                     const render::RainTotalGrid& total);
+    // Returns a grid that was made of others, under a name.
+    [[nodiscard]] static PictureGrid of_bricks(std::string name, cache::GridDescription description,
+                                               grid::BrickGrid bricks);
     // Takes the sweep of the volume that the scene names. Errors: those of place_sweep().
     [[nodiscard]] static Result<PictureGrid> of_sweep(SweptVolume volume,
                                                       const render::Scene& scene,

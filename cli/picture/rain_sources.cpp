@@ -1,28 +1,19 @@
 #include "cli/picture/rain_sources.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/picture/rain_total_grid.h"
 #include "cli/shared/commands.h"
 #include "cli/shared/input_files.h"
+#include "render/products/rain_of_domain.h"
+#include "render/products/rain_total_grid.h"
 #include "stormcellar/retrieve/rain_total.h"
 
 namespace stormcellar::cli {
 namespace {
-
-using retrieve::RainSpan;
-using retrieve::RainTotal;
-
-// No volume takes longer. The store lists grids by the start of their volumes, so the list begins
-// this much earlier.
-constexpr std::chrono::minutes longest_volume{30};
-constexpr const char* reflectivity_note =
-    "rain rates by reflectivity alone, because the cache has no grids of rain rates";
 
 // The lowest rates of a volume. Cells take less memory than bricks.
 struct LowestRates {
@@ -30,17 +21,6 @@ struct LowestRates {
     grid::Grid rates;
     cache::GridDescription description;
 };
-
-std::optional<RainSpan> span_ending(UtcTime to, const std::optional<double>& hours) {
-    if (!hours) return std::nullopt;
-    const std::chrono::duration<double, std::ratio<3600>> length(*hours);
-    return RainSpan{to - std::chrono::duration_cast<UtcTime::duration>(length), to};
-}
-
-bool tells_about(const RainSpan& span, UtcTime middle) {
-    return middle >= span.from - RainTotal::longest_bridge &&
-           middle <= span.to + RainTotal::longest_bridge;
-}
 
 Result<std::vector<LowestRates>> rates_of_files(const GridOptions& options, int threads) {
     auto inputs = InputFiles::find(options.files, InputFiles::all);
@@ -62,27 +42,9 @@ Result<std::vector<LowestRates>> rates_of_files(const GridOptions& options, int 
             retrieve::lowest_rates(made->view(), description.moment, threads);
         all.push_back({made->name(), grid::to_dense(lowest.view()), description});
     }
-    std::ranges::stable_sort(all, {},
-                             [](const LowestRates& one) { return middle_of(one.description); });
+    std::ranges::stable_sort(
+        all, {}, [](const LowestRates& one) { return render::middle_of(one.description); });
     return all;
-}
-
-// Returns the grids from which a total takes its rates: those of RATE, or those of REF if these
-// reach further into the span.
-Result<std::vector<cache::StoreEntry>> entries_of(const cache::StoreReader& store,
-                                                  const std::string& domain, const RainSpan& span) {
-    const UtcTime from = span.from - RainTotal::longest_bridge - longest_volume;
-    const UtcTime to = span.to + RainTotal::longest_bridge;
-    auto rates = store.list(domain, level2::Moment::rate, from, to);
-    if (!rates) return rates;
-    auto reflectivities = store.list(domain, level2::Moment::ref, from, to);
-    if (!reflectivities || reflectivities->empty()) return rates;
-    const UtcTime begin = std::max(reflectivities->front().time, span.from);
-    const UtcTime end = std::min(reflectivities->back().time, span.to);
-    const bool is_covered = !rates->empty() &&
-                            rates->front().time <= begin + RainTotal::longest_bridge &&
-                            rates->back().time >= end - RainTotal::longest_bridge;
-    return is_covered ? rates : reflectivities;
 }
 
 // Returns the end of the total: the requested time, or the middle of the newest volume.
@@ -103,7 +65,7 @@ Result<UtcTime> end_of_total(const cache::StoreReader& store, const std::string&
     }
     const auto newest = cache::GridFile::open(last->path);
     if (!newest) return pass_on(newest);
-    return middle_of(newest->description());
+    return render::middle_of(newest->description());
 }
 
 }  // namespace
@@ -119,13 +81,16 @@ Result<PictureGrid> rain_total_of_files(const GridOptions& options, const RainCh
     auto all = rates_of_files(options, choice.threads);
     if (!all) return pass_on(all);
     if (all->empty()) return fail(ErrorCode::not_found, "none of the files is a volume");
-    const auto span =
-        span_ending(choice.until.value_or(middle_of(all->back().description)), choice.hours);
+    std::optional<retrieve::RainSpan> span;
+    if (choice.hours) {
+        const UtcTime newest = render::middle_of(all->back().description);
+        span = render::span_ending(choice.until.value_or(newest), *choice.hours);
+    }
     std::erase_if(*all, [&](const LowestRates& one) {
-        const UtcTime middle = middle_of(one.description);
-        return span ? !tells_about(*span, middle) : choice.until && middle > *choice.until;
+        const UtcTime middle = render::middle_of(one.description);
+        return span ? !render::tells_about(*span, middle) : choice.until && middle > *choice.until;
     });
-    RainTotalGrid total(span);
+    render::RainTotalGrid total(span);
     for (const LowestRates& one : *all) {
         const grid::BrickGrid bricks = grid::BrickGrid::from(
             one.rates, grid::default_quantization(level2::Moment::rate), choice.threads);
@@ -141,36 +106,14 @@ Result<PictureGrid> rain_total_of_domain(const cache::StoreReader& store, const 
     if (Status fine = check_rain_hours(choice.hours); !fine) return pass_on(fine);
     const auto end = end_of_total(store, domain, choice);
     if (!end) return pass_on(end);
-    const RainSpan span = *span_ending(*end, choice.hours);
-    const auto entries = entries_of(store, domain, span);
-    if (!entries) return pass_on(entries);
-    RainTotalGrid total(span);
-    std::optional<grid::GridSpec> cells;
-    if (!entries->empty()) {
-        const auto newest = cache::GridFile::open(entries->back().path);
-        if (!newest) return pass_on(newest);
-        cells = newest->description().spec;
-    }
-    for (const cache::StoreEntry& entry : *entries) {
-        const auto file = cache::GridFile::open(entry.path);
-        if (!file) {
-            // The cache may have evicted the grid meanwhile. Its minutes count as not seen.
-            if (file.error().code != ErrorCode::not_found)
-                print_note("left out: " + file.error().message);
-            continue;
-        }
-        cache::GridDescription description = file->description();
-        if (!(description.spec == *cells) || !tells_about(span, middle_of(description))) continue;
-        const grid::BrickGrid lowest =
-            retrieve::lowest_rates(file->view(), entry.moment, choice.threads);
-        if (Status whole = file->check_whole(); !whole) return pass_on(whole);
-        if (entry.moment == level2::Moment::ref)
-            description.provenance.notes.emplace_back(reflectivity_note);
-        const Status added = total.add(lowest.view(), description, choice.threads);
-        if (!added) return pass_on(added);
-    }
-    total.close();
-    return PictureGrid::of_rain(domain, total);
+    std::vector<std::string> left_out;
+    const auto total = render::rain_total_of_domain(
+        store, {domain, render::span_ending(*end, *choice.hours), {}, choice.threads, {}},
+        &left_out);
+    for (const std::string& text : left_out)
+        print_note("left out: " + text);
+    if (!total) return pass_on(total);
+    return PictureGrid::of_rain(domain, *total);
 }
 
 }  // namespace stormcellar::cli

@@ -161,9 +161,11 @@ constexpr std::array option_rows{
                   .value = NumbersValue{freezing_places, set_freezing_levels},
                   .used_by = by_hail,
                   .used_by_cells = true,
+                  .used_by_moment = level2::Moment::hca,
                   .help = "Heights above sea level in meters at which the air has 0 and -20 "
-                          "degrees Celsius, for hail. Default: 4200,7300, an assumption for warm "
-                          "days on the Great Plains"},
+                          "degrees Celsius, for hail, and for HCA of volumes that show no melting "
+                          "layer. Default: 4200,7300, an assumption for warm days on the Great "
+                          "Plains"},
     PictureOption{.option = "--theme",
                   .section = "picture",
                   .key = "theme",

@@ -113,7 +113,8 @@ struct PictureOption {
     PictureValue value{};
     ProductUse used_by{};
     bool used_by_cells = false;  // every product uses the option if storm cells are marked
-    std::string_view help{};     // in it, {} or {0} and {1} are replaced by the ends of the range
+    std::optional<level2::Moment> used_by_moment{};  // every product of it uses the option
+    std::string_view help{};  // in it, {} or {0} and {1} are replaced by the ends of the range
 
     // Returns true for an option of [loop], which sets `loop`. All other options set the scene.
     [[nodiscard]] bool is_of_loop() const { return section == "loop"; }

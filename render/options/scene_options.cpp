@@ -27,9 +27,27 @@ std::string spelled(const PictureOption& row, const SceneOptions& options) {
 }
 
 Status unused(std::string_view name, const PictureOption& row, Product product) {
-    return fail(ErrorCode::bad_argument, "{} is for {}{}; {} does not use it", name,
-                row.used_by.text(), row.used_by_cells ? " and beside an overlay of cells" : "",
+    std::string uses = row.used_by.text();
+    if (row.used_by_moment)
+        uses += fmt::format(", for the moment {}", level2::moment_name(*row.used_by_moment));
+    if (row.used_by_cells) uses += " and beside an overlay of cells";
+    return fail(ErrorCode::bad_argument, "{} is for {}; {} does not use it", name, uses,
                 product_name(product));
+}
+
+// Returns true if the moment or one of the panels is this one.
+bool shows(level2::Moment wanted, const SceneOptions& options) {
+    const std::string asked = options.panels.empty() ? moment_asked(options) : options.panels;
+    const auto names = split(asked, ',');
+    return std::ranges::any_of(names, [wanted](std::string_view name) {
+        const auto moment = moment_named(std::string(name));
+        return moment && *moment == wanted;
+    });
+}
+
+bool is_used(const PictureOption& row, Product product, const SceneOptions& options) {
+    return row.is_used_by(product) || (row.used_by_cells && marks_cells(options)) ||
+           (row.used_by_moment && shows(*row.used_by_moment, options));
 }
 
 // Checks that the product uses all options that are given. Errors: bad_argument; the message names
@@ -37,8 +55,7 @@ Status unused(std::string_view name, const PictureOption& row, Product product) 
 Status check_uses(Product product, const SceneOptions& options) {
     const auto files = product_from_name(options.file_product);
     for (const PictureOption& row : picture_options()) {
-        if (row.is_used_by(product)) continue;
-        if (row.used_by_cells && marks_cells(options)) continue;
+        if (is_used(row, product, options)) continue;
         if (contains(options.typed, row)) return unused(spelled(row, options), row, product);
         const bool was_used = files && row.is_used_by(*files);
         if (!was_used && contains(options.in_file, row)) return unused(key_of(row), row, product);
@@ -184,11 +201,14 @@ Result<Scene> scene_of(const SceneOptions& options) {
     return scene;
 }
 
+bool chooses_levels(const SceneOptions& options) {
+    return contains(options.typed, freezing_levels_option()) ||
+           contains(options.in_file, freezing_levels_option());
+}
+
 std::optional<retrieve::FreezingLevels> chosen_freezing_levels(const SceneOptions& options,
                                                                const Scene& scene) {
-    const bool is_given = contains(options.typed, freezing_levels_option()) ||
-                          contains(options.in_file, freezing_levels_option());
-    if (!is_given && facts_of(scene.product).hail == nullptr) return std::nullopt;
+    if (!chooses_levels(options) && facts_of(scene.product).hail == nullptr) return std::nullopt;
     return scene.freezing_levels;
 }
 
@@ -249,11 +269,14 @@ Status check_stored_derivation(const SceneOptions& options, Product product) {
                     "the service left of it",
                     spelled(quality_option(), options));
     }
-    return check_stored_motion(options, product);
-}
-
-Status check_stored_motion(const SceneOptions& options, Product product) {
-    if (facts_of(product).is_of_sweep) return {};
+    const bool has_levels = chooses_levels(options) && shows(level2::Moment::hca, options) &&
+                            facts_of(product).hail == nullptr && !marks_cells(options);
+    if (has_levels) {
+        return fail(ErrorCode::bad_argument,
+                    "{} of HCA is for frames of files and for a ppi; the classes of kept grids are "
+                    "made already",
+                    spelled(freezing_levels_option(), options));
+    }
     if (options.storm_motion == retrieve::automatic_motion) return {};
     return fail(ErrorCode::bad_argument,
                 "{} is for frames of files and for a ppi; kept grids have the motion of their own "
@@ -278,6 +301,7 @@ retrieve::DerivedOptions derived_options_of(const SceneOptions& options) {
     if (rung && *rung != retrieve::Dealiasing::off) derived.dealiasing = *rung;
     derived.motion = retrieve::motion_choice_from(options.storm_motion).value_or(derived.motion);
     derived.quality = options.quality;
+    derived.zero_c_m = options.scene.freezing_levels.zero_c_m;
     return derived;
 }
 

@@ -72,6 +72,8 @@ struct LoopChoices {
 // option.
 [[nodiscard]] Result<Scene> scene_of(const SceneOptions& options);
 
+// Returns true if the command line or a scene file gives freezing levels.
+[[nodiscard]] bool chooses_levels(const SceneOptions& options);
 // Returns the freezing levels for MESH of storm cells: those that are given, or those of a product
 // of hail; none if nobody chose levels.
 [[nodiscard]] std::optional<retrieve::FreezingLevels> chosen_freezing_levels(
@@ -88,13 +90,11 @@ struct LoopChoices {
 // and no moment is given.
 [[nodiscard]] std::string moment_asked(const SceneOptions& options);
 
-// Refuses a quality, and a rung of dealiasing and a storm motion other than `auto`, for a picture
-// of kept grids, whose moments are derived already. A ppi is made from raw files, so it can have
-// any of them.
+// Refuses a quality, freezing levels of HCA, and a rung of dealiasing and a storm motion other than
+// `auto`, for a picture of kept grids, whose moments are derived already. A ppi is made from raw
+// files, so it can have any of them.
 // Errors: bad_argument, naming the option.
 [[nodiscard]] Status check_stored_derivation(const SceneOptions& options, Product product);
-// Refuses such a storm motion alone.
-[[nodiscard]] Status check_stored_motion(const SceneOptions& options, Product product);
 
 // Refuses a product over time for a picture of one kept grid. Errors: bad_argument.
 [[nodiscard]] Status check_single_grid(Product product);

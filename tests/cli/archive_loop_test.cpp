@@ -105,9 +105,28 @@ TEST_F(ArchiveLoop, LeavesOutEchoThatIsNoWeather) {
     EXPECT_EQ(json_of(run_station(weather))["grids_made"], 5) << "in a cache of their own";
     EXPECT_NE(*read_file(out()), all);
     EXPECT_EQ(json_of(run_station(weather))["grids_made"], 0);
-    const auto refused = run_station({"--moment", "SRV", "--storm-motion", "240/15"});
+}
+
+// 2026-11-30: --storm-motion was refused, though the loop makes the grids.
+TEST_F(ArchiveLoop, DrawsVelocitiesRelativeToAGivenMotion) {
+    const auto made = [&](const Words& more) {
+        const auto result = run_station(with({"--moment", "SRV", "--json"}, more));
+        return json_of(result)["grids_made"].get<int>();
+    };
+    const Words west = {"--storm-motion", "270/20"}, east = {"--storm-motion", "90/20"};
+    EXPECT_EQ(made(west), 5);
+    const auto bytes = *read_file(out());
+    EXPECT_EQ(made(east), 5) << "in a cache of their own";
+    EXPECT_NE(*read_file(out()), bytes);
+    EXPECT_EQ(made(west), 0);
+    EXPECT_EQ(*read_file(out()), bytes);
+    // Grids of another motion in a given cache are made again.
+    const Words given = {"--cache", (directory_ / "c").string()};
+    EXPECT_EQ(made(with(west, given)), 5);
+    EXPECT_EQ(made(with(east, given)), 5);
+    const auto refused = run_station({"--moment", "VEL", "--storm-motion", "240/15"});
     EXPECT_EQ(refused.status, 2);
-    EXPECT_THAT(refused.err, HasSubstr("--storm-motion"));
+    EXPECT_THAT(refused.err, HasSubstr("--storm-motion is for the storm-relative velocity, SRV"));
 }
 
 TEST_F(ArchiveLoop, GoesOnWhereItWasInterrupted) {

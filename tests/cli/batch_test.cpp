@@ -202,5 +202,24 @@ TEST_F(Batch, OwnGridsOfAStationNeedNoPlace) {
                 Contains(HasSubstr("probability of weather at least 0.5")));
 }
 
+// 2026-11-30: batch plan had no --storm-motion, so SRV always had the motion of the wind profile.
+TEST_F(Batch, OwnGridsHaveTheGivenStormMotion) {
+    const Words arguments =
+        with({"batch", "plan", "--source", place("drop"), "-o", place("own")},
+             words("--from 2005-08-22T02:50 --to 2005-08-22T02:56 --spacing-km 4"));
+    const Words motion = {"--storm-motion", "270/20"};
+    const ProgramResult refused = run(with(arguments, motion));
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--storm-motion needs --moment SRV"));
+    ASSERT_EQ(run(with(arguments, {"--moment", "SRV"}, motion)).status, 0);
+    ASSERT_EQ(batch("submit", "own", {"--engine", "local"}).status, 0);
+    const auto entries = *cache::StoreReader::open(directory_ / "own/cache")
+                              ->list("KBGM", level2::Moment::srv, std::nullopt, std::nullopt);
+    ASSERT_FALSE(entries.empty());
+    EXPECT_THAT(cache::GridFile::open(entries[0].path)->description().provenance.notes,
+                Contains("storm motion 270/20, as given"));
+    EXPECT_EQ(batch("check", "own", {}).status, 0);
+}
+
 }  // namespace
 }  // namespace stormcellar::cli

@@ -84,6 +84,30 @@ TEST_F(HailOfAMosaic, IsTheLargestHailOfItsRadars) {
     EXPECT_NE(mesh_of(*merged).values, mesh.values) << "the mean of reflectivity has less hail";
 }
 
+// 2026-11-30: panels merged the reflectivity before they made the hail.
+TEST_F(HailOfAMosaic, IsTheSameInPanels) {
+    const std::string west = volume_of("XSYN", -97.3), east = volume_of("YSYN", -96.4);
+    const std::string single = directory_ / "single.png", panel = directory_ / "panel.png";
+    const Words place = {"--center", "35,-97", "--extent-km", "100,100", "--product", "mesh"};
+    const auto drawn = [&](const std::string& to, const Words& more) {
+        const auto result = run(with({"frame", west, east, "-o", to}, place, more));
+        EXPECT_EQ(result.status, 0) << result.err;
+        return read_file(to).value();
+    };
+    const Words size = {"--width", "300", "--height", "200"};
+    const auto panels = drawn(panel, with(size, {"--panels", "REF"}));
+    const auto text = [](const std::vector<std::byte>& bytes) {
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    };
+    EXPECT_THAT(text(panels), ::testing::HasSubstr("hail of several radars, merged by maximum"));
+    const auto refused = run(with({"frame", west, east, "-o", single}, place, {"--panels", "VEL"}));
+    EXPECT_EQ(refused.status, 2);
+    const auto tracks = run(
+        {"frame", west, east, "-o", single, "--product", "rotation-tracks", "--panels", "AZSH"});
+    EXPECT_EQ(tracks.status, 2);
+    EXPECT_THAT(tracks.err, ::testing::HasSubstr("rotation-tracks is for one picture"));
+}
+
 TEST_F(HailOfAMosaic, NeedsPossibleHeights) {
     const std::string west = volume_of("XSYN", -97.3), east = volume_of("YSYN", -96.4);
     const auto refused = hail_grid_of_files(options_of({west, east}), {5000, 2000});

@@ -258,8 +258,6 @@ TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
                 HasSubstr("leave out --elevation"));
     EXPECT_THAT(refused({"--product", "ppi", "--all-elevations", "--repeats"}),
                 HasSubstr("--repeats shows the sweeps of one elevation"));
-    EXPECT_THAT(refused({"--product", "composite", "--moment", "SRV", "--storm-motion", "240/15"}),
-                HasSubstr("--storm-motion is for frames of files and for a ppi"));
     EXPECT_THAT(refused({"--product", "ppi", "--interval", "60"}), HasSubstr("--interval"));
     EXPECT_THAT(refused({"--product", "ppi", "--frames", "50"}), HasSubstr("--frames"));
 }

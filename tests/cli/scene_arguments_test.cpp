@@ -207,6 +207,20 @@ TEST(SceneOptions, AStormMotionIsForTheStormRelativeVelocity) {
                 ::testing::HasSubstr("'fast' is no storm motion; it must be auto, right, left"));
 }
 
+TEST(SceneOptions, FreezingLevelsAreForHailAndForClassesOfHydrometeors) {
+    const auto scene = scene_of(parse("--product ppi --moment HCA --freezing-levels 3000,6000"));
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->freezing_levels.zero_c_m, 3000);
+    EXPECT_THAT(scene_of(parse("--product ppi --freezing-levels 3000,6000")).error().message,
+                ::testing::EndsWith(", for the moment HCA and beside an overlay of cells; ppi does "
+                                    "not use it"));
+    // Kept grids have their classes already, but a ppi is made from a raw file.
+    SceneOptions kept = parse("--product ppi --moment HCA --freezing-levels 3000,6000");
+    EXPECT_TRUE(check_stored_derivation(kept, render::Product::ppi));
+    EXPECT_THAT(check_stored_derivation(kept, render::Product::composite).error().message,
+                ::testing::HasSubstr("--freezing-levels of HCA is for frames of files"));
+}
+
 TEST(SceneOptions, DealiasDrawsTheDealiasedVelocity) {
     using level2::Moment;
     EXPECT_EQ(scene_of(parse("--moment VEL"))->moment, Moment::vel);

@@ -1,12 +1,12 @@
 // Tests the grid of rain totals: values, columns that were not seen, notes, and volumes that do not
 // fit.
-#include "cli/picture/rain_total_grid.h"
+#include "render/products/rain_total_grid.h"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
 
 using grid::CellStatus;
@@ -76,4 +76,4 @@ TEST(RainTotalGrid, RefusesOtherRadars) {
 }
 
 }  // namespace
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

@@ -1,25 +1,29 @@
-#include "cli/picture/rain_total_grid.h"
+#include "render/products/rain_total_grid.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "cli/picture/picture_grid.h"
 #include "retrieve/rain/rain_note.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
 namespace {
 
 constexpr double most_unseen_share = 0.1;
 constexpr double all_of_the_time = 0.999;
 
 // Returns the place about which the columns are placed: the radar, or the center of a mosaic.
-grid::SitePosition place_of(const cache::GridDescription& description) {
+grid::SitePosition columns_about(const cache::GridDescription& description) {
     if (description.provenance.recipe == 0) return description.sites.front();
     return {"", description.spec.center_latitude_deg, description.spec.center_longitude_deg, 0};
 }
 
 }  // namespace
+
+UtcTime middle_of(const cache::GridDescription& grid) {
+    if (grid.provenance.recipe != 0 || grid.end_time <= grid.start_time) return grid.time;
+    return grid.start_time + (grid.end_time - grid.start_time) / 2;
+}
 
 Status RainTotalGrid::add(const grid::BrickView& rate, const cache::GridDescription& description,
                           int threads) {
@@ -30,7 +34,7 @@ Status RainTotalGrid::add(const grid::BrickView& rate, const cache::GridDescript
         return fail(ErrorCode::bad_argument, "the files of a rain total must be of one radar");
     const UtcTime middle = middle_of(description);
     if (!total_) {
-        total_.emplace(place_of(description), retrieve::RainSteps::advected, threads, span_);
+        total_.emplace(columns_about(description), retrieve::RainSteps::advected, threads, span_);
         first_ = middle;
     }
     if (Status added = total_->add(rate, middle); !added) return added;
@@ -80,4 +84,4 @@ cache::GridDescription RainTotalGrid::description() const {
     return made;
 }
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render

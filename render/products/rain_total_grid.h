@@ -1,5 +1,5 @@
-// cli/picture/rain_total_grid.h -- the grid of the product rain-total, from the grids of RATE or
-// REF of several volumes.
+// render/products/rain_total_grid.h -- the grid of the product rain-total, from the grids of RATE
+// or REF of several volumes.
 //
 // The grid has the columns of the volumes at their lowest level, and the moment RATE. Its values
 // are millimeters, the rate that gives the total in one hour. A column that was not seen for more
@@ -18,7 +18,10 @@
 #include "stormcellar/grid/brick_grid.h"
 #include "stormcellar/retrieve/rain_total.h"
 
-namespace stormcellar::cli {
+namespace stormcellar::render {
+
+// Returns the middle of the time that the grid's volume took, or the instant of a mosaic's frame.
+[[nodiscard]] UtcTime middle_of(const cache::GridDescription& grid);
 
 class RainTotalGrid {
   public:
@@ -45,4 +48,4 @@ class RainTotalGrid {
     cache::GridDescription description_;
 };
 
-}  // namespace stormcellar::cli
+}  // namespace stormcellar::render
