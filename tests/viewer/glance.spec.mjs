@@ -61,8 +61,16 @@ for (const [width, height] of [[390, 844], [1440, 900]])
       expect(await viewer.told('azimuth')).not.toBe(turned);
       await viewer.keep(`glance-${width}`);
       // One press leads to a plain tilt with its angle, and buttons for the next one.
-      await viewer.settled(() => viewer.press('mode-2d'));
+      const tap = async (id) => {
+        const { x, y, width, height } = await viewer.byId(id).boundingBox();
+        await page.touchscreen.tap(x + width / 2, y + height / 2);
+      };
+      await viewer.settled(() => tap('mode-2d'));
       for (const id of ['tilt', 'tilt-lower', 'tilt-higher']) await expectSeen(viewer, id);
+      const lowest = await viewer.text('layers-told');
+      await viewer.settled(() => tap('tilt-higher'));
+      expect(await viewer.text('layers-told'), 'a tap leads to the next tilt').not.toBe(lowest);
+      await viewer.settled(() => tap('tilt-lower'));
       await expect(viewer.byId('layers-told')).toContainText(/\d\.\d°/);
       await viewer.keep(`glance-flat-${width}`);
     });

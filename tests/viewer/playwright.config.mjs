@@ -54,6 +54,13 @@ const firefox = {
   },
 };
 
+// What the page must have, and the checks of it:
+//   2D first                     flat, sweeps          times below the slider   time, tracks
+//   a reading that is right      readout, look         storms, sections, lines  cells, wind, layers, look
+//   a first picture as in frame  look, pictures        overlays                 overlays
+//   velocity for work            dealiased, glance     plain words, keys        words, glance
+//   age, health, progress        honest, scan          everybody, any window    access, glance
+//   loading, without WebGL       stills
 export default defineConfig({
   testDir: '.',
   outputDir: join(resolve(root, process.env.STORMCELLAR_BUILD || 'build/release'), 'tests/viewer/results'),
