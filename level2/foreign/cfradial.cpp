@@ -370,7 +370,8 @@ Result<PolarFile> read_cfradial(std::span<const std::byte> bytes, const Group& r
     if (Status site = read_site(values, root, file); !site) return pass_on(site);
     const bool is_one_group = root.array("azimuth") != nullptr;
     const std::string version = root.attributes.text("version").value_or("");
-    file.format = is_one_group ? "CfRadial " + (version.empty() ? "1" : version) : "CfRadial 2";
+    file.format =
+        is_one_group ? "CfRadial " + (version.starts_with("1.") ? version : "1") : "CfRadial 2";
     file.is_partial = root.attributes.text("volume") == "partial";
     if (root.array("message_type") != nullptr) {
         if (const auto vcp = root.attributes.number("scan_id")) file.vcp = static_cast<int>(*vcp);

@@ -1,13 +1,36 @@
 #include "level2/foreign/cfradial_values.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "base/printable.h"
 
 namespace stormcellar::level2 {
 
 using arrayfile::Array;
 using arrayfile::ElementKind;
 using arrayfile::Group;
+
+namespace {
+
+struct TimeUnit {
+    std::string_view begin;
+    double seconds = 1;
+};
+constexpr auto time_units = std::to_array<TimeUnit>({
+    {"sec", 1},
+    {"s ", 1},
+    {"milli", 1e-3},
+    {"micro", 1e-6},
+    {"nano", 1e-9},
+    {"min", 60},
+    {"hour", 3600},
+    {"day", 86'400},
+});
+
+}  // namespace
 
 std::vector<double> CfradialValues::numbers(const Array& array) const {
     // Coordinates have an element for each ray or gate, not for each gate of each ray.
@@ -63,17 +86,22 @@ Result<std::vector<UtcTime>> CfradialValues::times(const Group& group) const {
     const std::string units = array->attributes.text("units").value_or("");
     constexpr std::string_view since = " since ";
     const std::size_t found = units.find(since);
-    if (!units.starts_with("sec") || found == std::string::npos)
+    const auto unit = std::ranges::find_if(
+        time_units, [&](const TimeUnit& one) { return units.starts_with(one.begin); });
+    if (found == std::string::npos || unit == time_units.end())
         return fail(ErrorCode::corrupt,
-                    "the times of rays have the unit '{}', not seconds since a time",
-                    units.substr(0, 60));
+                    "the times of rays have the unit '{}', not such as 'seconds since 2018-11-10'",
+                    printable(units.substr(0, 60)));
     std::string text = units.substr(found + since.size());
-    if (const std::size_t zone = text.find(" UTC"); zone != std::string::npos) text.resize(zone);
+    for (const std::string_view zone : {" UTC", "+00:00", " +0:00"}) {
+        if (text.ends_with(zone)) text.resize(text.size() - zone.size());
+    }
     const auto start = parse_utc(text, UtcTime{});
     if (!start) return fail(ErrorCode::corrupt, "the times of rays: {}", start.error().message);
     std::vector<UtcTime> times;
     constexpr double longest_s = 1e10;
-    for (const double seconds : numbers(*array)) {
+    for (const double number : numbers(*array)) {
+        const double seconds = number * unit->seconds;
         if (!(std::abs(seconds) < longest_s))
             return fail(ErrorCode::corrupt, "a ray has the time {} s", seconds);
         times.push_back(*start + std::chrono::milliseconds{std::llround(seconds * 1000)});

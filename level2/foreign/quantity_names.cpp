@@ -131,9 +131,11 @@ std::string station_of(std::string_view name, const VolumeBlock& position) {
     }
     if (made.empty()) made = plain(name);
     if (made.empty()) return {};
-    if (made[0] < 'A') made.insert(0, "X");
-    const bool is_number = made[0] == 'X' && made.size() > station_letters;
-    if (is_number) made.erase(1, made.size() - station_letters);  // the last digits differ most
+    if (made[0] < 'A') {
+        // The last digits differ most.
+        if (made.size() >= station_letters) made.erase(0, made.size() - station_letters + 1);
+        made.insert(0, "X");
+    }
     made.resize(station_letters, 'X');
     if (!is_elsewhere(made, position)) return made;
     std::uint64_t sum = xxh3_64(std::as_bytes(std::span{name.data(), name.size()}));

@@ -123,6 +123,21 @@ TEST(CfRadial, ReadsRaysOfDifferentLengths) {
     EXPECT_FLOAT_EQ(second.value_of(second.code(0, 1)), 31);
 }
 
+// xradar writes milliseconds.
+TEST(CfRadial, ReadsTimesInEachUnit) {
+    for (const char* units :
+         {"milliseconds since 2018-11-10T12:00:00+00:00", "s since 2018-11-10 12:00:00.000 UTC"}) {
+        NetcdfWriter file{NC_NETCDF4};
+        begin_cfradial(file);
+        add_fields(file);
+        file.text("time", "units", units);
+        const UtcTime time = decoded(file).volume.sweeps.at(1).radials.at(1).time;
+        const bool is_thousandth = std::string_view{units}.starts_with("milli");
+        EXPECT_EQ(format_utc(time),
+                  is_thousandth ? "2018-11-10T12:00:00.001Z" : "2018-11-10T12:00:00.750Z");
+    }
+}
+
 TEST(CfRadial, LeavesRaysWithoutADirectionOut) {
     NetcdfWriter file{NC_NETCDF4};
     begin_cfradial(file);
@@ -176,9 +191,9 @@ TEST(CfRadial, SaysWhyAFileIsNotRead) {
 
     NetcdfWriter bad{NC_NETCDF4};
     begin_cfradial(bad);
-    bad.text("time", "units", "days since 1970-01-01");
+    bad.text("time", "units", "weeks since 1970-01-01");
     add_fields(bad);
-    EXPECT_THAT(error_of(bad).message, HasSubstr("days since"));
+    EXPECT_THAT(error_of(bad).message, HasSubstr("weeks since"));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ TEST(QuantityNames, MakesStationsOfFourLetters) {
     EXPECT_EQ(station_of("WMO:02032,RAD:SE41", sweden), "SE41");
     EXPECT_EQ(station_of("WMO:02032", sweden), "X032");
     EXPECT_EQ(station_of("CHIVO", sweden), "CHIV");
+    EXPECT_EQ(station_of("xsapr-sgp", sweden), "XSAP");
     EXPECT_EQ(station_of("s-pol", sweden), "SPOL");
     EXPECT_EQ(station_of("X1", sweden), "X1XX");
     EXPECT_EQ(station_of("", sweden), "");
