@@ -26,7 +26,7 @@ constexpr CfradialVersion version_2{
     "_FillValue; the status variable of each moment says why."};
 
 FieldNames names_in_fm301(level2::Moment moment) {
-    const ExchangeNames& names = exchange_names_of(moment);
+    const ExchangeNames names = exchange_names_of(moment);
     return {names.name, names.standard_name};
 }
 

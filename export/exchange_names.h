@@ -21,27 +21,31 @@ struct ExchangeNames {
     std::string_view uf;             // two letters
 };
 
-inline constexpr auto exchange_names = std::to_array<ExchangeNames>({
+// In this table, a name that is the same as ours is empty.
+inline constexpr auto exchange_name_rows = std::to_array<ExchangeNames>({
     {level2::Moment::ref, "DBZH", "radar_equivalent_reflectivity_factor_h", "DZ"},
     {level2::Moment::vel, "VRADH", "radial_velocity_of_scatterers_away_from_instrument_h", "VR"},
-    {level2::Moment::sw, "WRADH", "radar_doppler_spectrum_width_h", "SW"},
-    {level2::Moment::zdr, "ZDR", "radar_differential_reflectivity_hv", "ZD"},
+    {level2::Moment::sw, "WRADH", "radar_doppler_spectrum_width_h", ""},
+    {level2::Moment::zdr, "", "radar_differential_reflectivity_hv", "ZD"},
     {level2::Moment::phi, "PHIDP", "radar_differential_phase_hv", "PH"},
     {level2::Moment::rho, "RHOHV", "radar_correlation_coefficient_hv", "RH"},
     {level2::Moment::cfp, "CCORH", "radar_clutter_correction_h", "CF"},
     {level2::Moment::veld, "VRADDH", "radial_velocity_of_scatterers_away_from_instrument_h", "VE"},
-    {level2::Moment::srv, "SRV", "", "SV"},
+    {level2::Moment::srv, "", "", "SV"},
     {level2::Moment::azsh, "AZSHEAR", "", "AS"},
     {level2::Moment::divg, "DIVERGENCE", "", "DV"},
-    {level2::Moment::pow, "POW", "", "PW"},
-    {level2::Moment::kdp, "KDP", "radar_specific_differential_phase_hv", "KD"},
-    {level2::Moment::rate, "RATE", "rainfall_rate", "RR"},
-    {level2::Moment::hca, "HCA", "", "HC"},
+    {level2::Moment::pow, "", "", "PW"},
+    {level2::Moment::kdp, "", "radar_specific_differential_phase_hv", "KD"},
+    {level2::Moment::rate, "", "rainfall_rate", "RR"},
+    {level2::Moment::hca, "", "", "HC"},
 });
-static_assert(level2::has_a_row_for_each_moment(exchange_names));
+static_assert(level2::has_a_row_for_each_moment(exchange_name_rows));
 
-[[nodiscard]] constexpr const ExchangeNames& exchange_names_of(level2::Moment moment) {
-    return exchange_names[static_cast<std::size_t>(moment)];
+[[nodiscard]] constexpr ExchangeNames exchange_names_of(level2::Moment moment) {
+    ExchangeNames names = exchange_name_rows[static_cast<std::size_t>(moment)];
+    if (names.name.empty()) names.name = level2::moment_name(moment);
+    if (names.uf.empty()) names.uf = level2::moment_name(moment);
+    return names;
 }
 
 }  // namespace stormcellar::netcdf
