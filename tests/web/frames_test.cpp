@@ -22,7 +22,9 @@ std::unique_ptr<FramesDoor> door_to(const PicturedStorm& storm, std::filesystem:
     return std::make_unique<FramesDoor>(
         storm.grids(), std::make_shared<FramePictures>(FramePicturesOptions{}),
         std::make_shared<SweepPictures>(std::make_shared<ServedCatalog>(std::move(catalog)),
-                                        FramePicturesOptions{}));
+                                        FramePicturesOptions{}),
+        std::make_shared<RainTotals>(RainTotalsOptions{.grids = storm.grids()}),
+        std::make_shared<StormScans>(storm.grids()));
 }
 
 class Frames : public DoorTest<FramesDoor, PictureTest> {

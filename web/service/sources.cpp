@@ -37,21 +37,28 @@ constexpr std::size_t maps_for_a_frame = 8;
 // Draws the pictures of the data server, with one memory for all.
 struct Pictures {
     FramePicturesOptions options;
+    std::shared_ptr<RainTotals> rain;
     std::shared_ptr<SweepPictures> sweeps;
     std::shared_ptr<MapPictures> maps;
 };
 Pictures pictures_of(const Sources& sources) {
     const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const auto kept = std::make_shared<KeptAnswers>(sources.setup.web.limits.kept_picture_bytes);
-    const FramePicturesOptions options{.kept = kept, .threads = threads};
+    const FramePicturesOptions options{
+        .kept = kept, .threads = threads, .cache = sources.setup.cache};
     const auto sweeps = std::make_shared<SweepPictures>(
         std::make_shared<ServedCatalog>(sources.setup.catalog, sources.catalog), options);
-    return {options, sweeps,
-            std::make_shared<MapPictures>(MapPicturesOptions{
-                .grids = sources.grids, .sweeps = sweeps, .kept = kept, .threads = threads})};
+    const auto rain = std::make_shared<RainTotals>(RainTotalsOptions{.grids = sources.grids});
+    return {options, rain, sweeps,
+            std::make_shared<MapPictures>(MapPicturesOptions{.grids = sources.grids,
+                                                             .sweeps = sweeps,
+                                                             .rain = rain,
+                                                             .kept = kept,
+                                                             .threads = threads})};
 }
 
-void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures) {
+void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures,
+                  const std::shared_ptr<StormScans>& scans) {
     const WebLimits& limits = sources.setup.web.limits;
     const auto renders = static_cast<unsigned>(limits.renders);
     const auto waiting = static_cast<std::size_t>(limits.waiting);
@@ -67,7 +74,8 @@ void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures
     for (const char* prefix : {"/public", "/api/maps.json", "/v2", "/rainviewer"})
         doors.add(prefix, rainviewer);
     const auto frames = std::make_shared<FramesDoor>(
-        sources.grids, std::make_shared<FramePictures>(pictures.options), pictures.sweeps);
+        sources.grids, std::make_shared<FramePictures>(pictures.options), pictures.sweeps,
+        pictures.rain, scans);
     frames->set_workers(std::make_shared<WorkQueue>(renders, waiting));
     doors.add("/frames", frames);
     doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));
@@ -192,7 +200,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     if (setup.web.serves(WebPart::metrics))
         doors->add("/metrics", std::make_shared<MetricsDoor>(measures.counters()));
     if (setup.web.serves(WebPart::pictures)) {
-        add_pictures(*doors, sources, pictures);
+        add_pictures(*doors, sources, pictures, scans);
         doors->add("/overlays", std::make_shared<OverlaysDoor>(setup.web.overlays));
     }
     // The page of the viewer draws data of the API.

@@ -14,6 +14,7 @@
 #include "render/still/map_raster.h"
 #include "stormcellar/level2/live_sweep.h"
 #include "stormcellar/render/product.h"
+#include "web/data/pictures/shown_grid.h"
 
 namespace stormcellar::web {
 namespace {
@@ -89,14 +90,17 @@ std::shared_ptr<const FlatMap> map_with_levels(FlatMap map, render::FlatField fi
     return std::make_shared<const FlatMap>(std::move(map));
 }
 
-Result<std::shared_ptr<const FlatMap>> made_map(const OpenGrid& grid, const render::Scene& scene,
+Result<std::shared_ptr<const FlatMap>> made_map(const std::filesystem::path& cache,
+                                                const OpenGrid& grid, const render::Scene& scene,
                                                 int threads) {
-    const grid::BrickView view = grid.file.view();
+    const auto shown = shown_grid(cache, grid, scene, threads);
+    if (!shown) return pass_on(shown);
+    const grid::BrickView view = shown->view();
     const render::FrameFacts facts =
-        render::frame_facts_of(grid.domain, grid.file.description(), "UTC");
+        render::frame_facts_of(grid.domain, shown->description(), "UTC");
     auto field = render::still_field({view, facts, scene}, threads);
     if (!field) return pass_on(field);
-    if (Status whole = grid.file.check_whole(); !whole) return pass_on(whole);
+    if (Status whole = shown->check_whole(); !whole) return pass_on(whole);
     return map_with_levels({grid.file.description().spec, {}, {}, {}}, std::move(*field), scene,
                            threads);
 }
@@ -157,7 +161,8 @@ render::FlatField halved_field(const render::FlatField& field, const render::Sce
 Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const OpenGrid& grid,
                                                               const render::Scene& scene,
                                                               int threads) {
-    return find_or_make(key_of_map(grid, scene), [&] { return made_map(grid, scene, threads); });
+    return find_or_make(key_of_map(grid, scene),
+                        [&] { return made_map(cache_, grid, scene, threads); });
 }
 
 Result<std::shared_ptr<const FlatMap>> FlatMaps::find_or_make(const SweepPicture& picture,

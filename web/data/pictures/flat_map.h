@@ -19,10 +19,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/recently_used.h"
@@ -52,10 +54,12 @@ struct FlatMap {
 class FlatMaps {
   public:
     // The newest map is kept however large it is, because neighboring tiles need it, too.
-    explicit FlatMaps(std::uint64_t budget_bytes) : maps_({.weight = budget_bytes}) {}
+    // `cache` is the directory of the cache whose grids are shown.
+    explicit FlatMaps(std::uint64_t budget_bytes, std::filesystem::path cache = {})
+        : cache_(std::move(cache)), maps_({.weight = budget_bytes}) {}
 
-    // Returns the map of the scene's product. Errors: those of still_field(), and of a grid that
-    // was truncated while it was read.
+    // Returns the map of the scene's product. Errors: those of shown_grid() and still_field(), and
+    // of a grid that was truncated while it was read.
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const OpenGrid& grid,
                                                                       const render::Scene& scene,
                                                                       int threads);
@@ -69,6 +73,7 @@ class FlatMaps {
     [[nodiscard]] Result<std::shared_ptr<const FlatMap>> find_or_make(const std::string& key,
                                                                       const Make& make);
 
+    const std::filesystem::path cache_;
     mutable Mutex mutex_;
     ConditionVariable made_;
     RecentlyUsed<std::string, std::shared_ptr<const FlatMap>> maps_ STORMCELLAR_GUARDED_BY(mutex_);

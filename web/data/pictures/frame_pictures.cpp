@@ -1,11 +1,13 @@
 #include "web/data/pictures/frame_pictures.h"
 
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/checksum.h"
 #include "stormcellar/base/version.h"
+#include "web/data/pictures/shown_grid.h"
 
 namespace stormcellar::web {
 namespace {
@@ -43,9 +45,16 @@ Result<Kept> FramePictures::find_or_draw(const FramePicture& picture) {
 }
 
 Result<Kept> FramePictures::draw(const FramePicture& picture) const {
+    std::vector<ShownGrid> shown;
+    for (std::size_t i = 0; i < picture.grids.size(); ++i) {
+        auto one = shown_grid(options_.cache, *picture.grids[i], picture.style.panels[i].scene,
+                              options_.threads);
+        if (!one) return pass_on(one);
+        shown.push_back(std::move(*one));
+    }
     std::vector<DrawnPanel> panels;
-    for (const auto& grid : picture.grids)
-        panels.push_back({grid->file.view(), &grid->file.description()});
+    for (const ShownGrid& one : shown)
+        panels.push_back({one.view(), &one.description()});
     auto drawn =
         draw_frame(picture.domain, picture.style, panels, picture.etag(), options_.threads);
     if (!drawn) return drawn;

@@ -9,6 +9,7 @@
 // Errors    See each function.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +24,8 @@ namespace stormcellar::web {
 
 struct FramePicturesOptions {
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
-    int threads = 1;  // for one picture
+    int threads = 1;                   // for one picture
+    std::filesystem::path cache = {};  // which has the grids
 };
 
 // A picture of grids of one domain and time. Each panel shows one of the grids.

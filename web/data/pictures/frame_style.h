@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "stormcellar/base/result.h"
 #include "stormcellar/cache/grid_file.h"
 #include "stormcellar/grid/brick_view.h"
+#include "stormcellar/render/overlays.h"
 #include "stormcellar/render/still.h"
 #include "web/data/grids/kept_answers.h"
 #include "web/http/request.h"
@@ -32,11 +34,14 @@ struct FrameStyle {
     bool has_panels = false;                 // the query has "panels", even with one name
     const render::StillFormat* format = nullptr;
     render::TiffContent tiff = render::TiffContent::values;
+    int hours = 0;                                          // of a rain total; 0: another product
+    std::shared_ptr<const render::CellOverlay> cells = {};  // to mark; their grids are in `key`
     std::string key;  // the whole style as one text, to tell styles apart
 };
 
 // Reads the query of a picture. The ending of the file's name gives the format. The parameters are
-// the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels" and "geotiff".
+// the options of `stormcellar frame` (web/data/pictures/picture_query.h), "panels", "geotiff" and
+// "hours".
 // Ignores parameters named in `others`, which the caller reads. Errors: not_found for an ending
 // that no format has; bad_argument.
 [[nodiscard]] Result<FrameStyle> frame_style(std::string_view file_name, const Fields& query,

@@ -79,8 +79,37 @@ std::string MapPicture::etag() const {
 
 MapPictures::MapPictures(MapPicturesOptions options)
     : options_(std::move(options)),
-      maps_(options_.map_bytes),
-      boxes_({.values = most_boxes_known}) {}
+      maps_(options_.map_bytes, options_.grids->cache()),
+      boxes_({.values = most_boxes_known}) {
+    if (!options_.rain)
+        options_.rain = std::make_shared<RainTotals>(RainTotalsOptions{.grids = options_.grids});
+}
+
+std::vector<MapProduct> MapPictures::layers_of(std::string_view domain) const {
+    const Grids& grids = *options_.grids;
+    auto layers = map_products_of(grids.moments(domain));
+    if (grids.times(domain, RainTotals::listed_moment(grids, domain)).size() < 2)
+        std::erase_if(layers, [](const MapProduct& layer) { return layer.hours > 0; });
+    return layers;
+}
+
+level2::Moment MapPictures::listed_moment(std::string_view domain, const MapProduct& layer) const {
+    return layer.hours > 0 ? RainTotals::listed_moment(*options_.grids, domain) : layer.moment;
+}
+
+Result<std::shared_ptr<const OpenGrid>> MapPictures::find_grid(std::string_view domain,
+                                                               const MapProduct& layer,
+                                                               UtcTime time) {
+    if (layer.hours > 0) return options_.rain->find(std::string(domain), layer.hours, time);
+    return options_.grids->find(domain, layer.moment, time);
+}
+
+std::shared_ptr<const OpenGrid> MapPictures::find_grid_if_open(std::string_view domain,
+                                                               const MapProduct& layer,
+                                                               UtcTime time) {
+    if (layer.hours > 0) return options_.rain->find_if_kept(std::string(domain), layer.hours, time);
+    return options_.grids->find_if_open(domain, layer.moment, time);
+}
 
 std::optional<Kept> MapPictures::find(const MapPicture& picture) {
     return options_.kept->find(picture.key());

@@ -25,6 +25,7 @@
 #include "web/data/grids/kept_answers.h"
 #include "web/data/pictures/flat_map.h"
 #include "web/data/pictures/map_product.h"
+#include "web/data/storms/rain_totals.h"
 #include "web/http/request.h"
 
 namespace stormcellar::web {
@@ -32,6 +33,7 @@ namespace stormcellar::web {
 struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
     std::shared_ptr<SweepPictures> sweeps = {};  // null: no sweeps are drawn
+    std::shared_ptr<RainTotals> rain = {};       // null: made of `grids`
     // Keeps the pictures. Others may share this object.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
     std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
@@ -91,6 +93,21 @@ class MapPictures {
     // specs.
     [[nodiscard]] render::EarthBox box_of(const std::string& domain, const grid::GridSpec& spec);
     [[nodiscard]] Grids& grids() { return *options_.grids; }
+    // Returns the layers of a domain. A domain of a single grid has no rain totals.
+    [[nodiscard]] std::vector<MapProduct> layers_of(std::string_view domain) const;
+    // Returns the moment whose grids have the times of a layer: the layer's own, or that of
+    // RainTotals::listed_moment().
+    [[nodiscard]] level2::Moment listed_moment(std::string_view domain,
+                                               const MapProduct& layer) const;
+    // Returns the grid of a layer: a kept grid, or a rain total. Errors: those of Grids::find() and
+    // RainTotals::find().
+    [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find_grid(std::string_view domain,
+                                                                    const MapProduct& layer,
+                                                                    UtcTime time);
+    // Returns the grid if that takes only microseconds; else null.
+    [[nodiscard]] std::shared_ptr<const OpenGrid> find_grid_if_open(std::string_view domain,
+                                                                    const MapProduct& layer,
+                                                                    UtcTime time);
     [[nodiscard]] SweepPictures* sweeps() { return options_.sweeps.get(); }
     // Returns the plane of a sweep. Errors: those of SweepPictures::decode().
     [[nodiscard]] Result<grid::GridSpec> plane_of(const SweepPicture& sweep);

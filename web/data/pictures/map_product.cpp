@@ -1,20 +1,34 @@
 #include "web/data/pictures/map_product.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 
 #include <fmt/ranges.h>
 
 #include "base/printable.h"
 #include "render/options/moment_name.h"
 #include "render/options/scene_options.h"
+#include "web/data/storms/rain_totals.h"
 
 namespace stormcellar::web {
 namespace {
 
 constexpr std::size_t longest_shown = 80;
+constexpr std::array usual_hours{1, 3, 24};
 
 bool is_of_grids(const render::ProductFacts& facts) {
-    return facts.view == render::View::map && !facts.is_of_sweep && !facts.is_over_time;
+    return facts.view == render::View::map && !facts.is_of_sweep &&
+           (!facts.is_over_time || facts.is_sum);
+}
+
+// Reads the length of a rain total, as in "3h".
+std::optional<int> hours_in(std::string_view text) {
+    int hours = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), hours);
+    const bool is_number = error == std::errc{} && !text.starts_with('0');
+    if (!is_number || std::string_view(rest, text.data() + text.size()) != "h") return std::nullopt;
+    return hours >= 1 && hours <= RainTotals::most_hours ? std::optional(hours) : std::nullopt;
 }
 
 std::string names_of_products() {
@@ -28,6 +42,7 @@ std::string names_of_products() {
 
 std::string MapProduct::name() const {
     const render::ProductFacts& facts = render::facts_of(product);
+    if (hours > 0) return fmt::format("{}.{}h", facts.name, hours);
     if (facts.only_moment) return std::string(facts.name);
     return fmt::format("{}.{}", facts.name, level2::moment_name(moment));
 }
@@ -52,6 +67,14 @@ Result<MapProduct> map_product_named(std::string_view name) {
     }
     const auto only = render::facts_of(*product).only_moment;
     MapProduct layer{*product, only.value_or(level2::Moment::ref)};
+    if (render::facts_of(*product).is_sum) {
+        const auto hours = dot == name.npos ? std::nullopt : hours_in(name.substr(dot + 1));
+        if (!hours)
+            return fail(ErrorCode::not_found, "a rain total has 1 to {} hours, as in {}.3h",
+                        RainTotals::most_hours, render::product_name(*product));
+        layer.hours = *hours;
+        return layer;
+    }
     if (dot == std::string_view::npos) return layer;
     const auto moment = moment_in_layer(name);
     if (!moment) return pass_on(moment);
@@ -67,12 +90,36 @@ std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& momen
     std::vector<MapProduct> layers;
     for (const render::ProductFacts& facts : render::all_products()) {
         if (!is_of_grids(facts)) continue;
+        const auto is_listed = [&](level2::Moment moment) {
+            return std::ranges::find(moments, moment) != moments.end();
+        };
+        const bool has_rain = is_listed(level2::Moment::ref) || is_listed(level2::Moment::rate);
+        if (facts.is_sum) {
+            for (const int hours : usual_hours)
+                if (has_rain) layers.push_back({facts.product, level2::Moment::rate, hours});
+            continue;
+        }
         for (const level2::Moment moment : moments) {
             if (facts.only_moment.value_or(moment) != moment) continue;
+            if (level2::facts_of(moment).is_categorical) continue;  // drawn as a ppi alone
             layers.push_back({facts.product, moment});
         }
     }
     return layers;
+}
+
+std::string title_of(const MapProduct& layer, const render::Scene& scene) {
+    std::string title = render::product_title(scene);
+    if (layer.hours > 0)
+        title += fmt::format(", {} {}", layer.hours, layer.hours == 1 ? "hour" : "hours");
+    return title;
+}
+
+std::string title_of(const MapProduct& layer) {
+    render::Scene scene;
+    scene.product = layer.product;
+    scene.moment = layer.moment;
+    return title_of(layer, scene);
 }
 
 bool is_of_layers(const render::PictureOption& option) {

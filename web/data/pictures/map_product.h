@@ -1,7 +1,8 @@
 // web/data/pictures/map_product.h -- the 2D products of a domain as layers of a map, by name.
 //
 // A layer is a product of a moment, as in "composite.VEL". A product that always needs reflectivity
-// has a name without a moment ("vil"). For other products, a name without a moment means REF.
+// has a name without a moment ("vil"). For other products, a name without a moment means REF. A
+// rain total has its length in hours, from 1 to 24: "rain-total.3h".
 //
 // Threads   Plain values and pure functions.
 // Errors    See each function.
@@ -23,6 +24,7 @@ namespace stormcellar::web {
 struct MapProduct {
     render::Product product = render::Product::composite;
     level2::Moment moment = level2::Moment::ref;
+    int hours = 0;  // of a rain total, whose grid RainTotals makes; 0: a product of a kept grid
 
     [[nodiscard]] std::string name() const;
     bool operator==(const MapProduct&) const = default;
@@ -36,8 +38,13 @@ struct MapProduct {
 // for a product that is not a map of a grid, and for a moment that the product does not have.
 [[nodiscard]] Result<MapProduct> map_product_named(std::string_view name);
 
-// Returns the layers that grids of these moments have, in the order of products.
+// Returns the layers that grids of these moments have, in the order of products. Rain totals are
+// those of 1, 3 and 24 hours.
 [[nodiscard]] std::vector<MapProduct> map_products_of(const std::vector<level2::Moment>& moments);
+
+// Returns the title of a product, and the length of a rain total.
+[[nodiscard]] std::string title_of(const MapProduct& layer, const render::Scene& scene);
+[[nodiscard]] std::string title_of(const MapProduct& layer);  // with the usual options
 
 // A layer with the options of a query.
 struct MapStyle {

@@ -41,6 +41,9 @@ Status take_parameter(const render::PictureOption& row, const std::string& name,
         return fail(ErrorCode::bad_argument, "{} is given more than once", name);
     if (text.size() > longest_value)
         return fail(ErrorCode::bad_argument, "{} is longer than {} bytes", name, longest_value);
+    // The server reads no file that a client names.
+    if (&row == &render::overlay_option() && text != render::overlay_cells)
+        return fail(ErrorCode::bad_argument, "{} is {} here", name, render::overlay_cells);
     if (names_file(row, text))
         return fail(ErrorCode::bad_argument, "{}: a table is named here, not a file", name);
     const render::PictureSettings to{options, options.scene, nullptr};
@@ -53,14 +56,13 @@ Status take_parameter(const render::PictureOption& row, const std::string& name,
 }  // namespace
 
 bool is_of_frames(const render::PictureOption& option) {
-    // The server draws no storm cells.
-    return !option.is_of_loop() && !option.section.empty() && &option != &render::overlay_option();
+    return !option.is_of_loop() && !option.section.empty();
 }
 
 bool is_of_bare_maps(const render::PictureOption& option) {
     const bool is_of_page = &option == &render::width_option() ||
                             &option == &render::height_option() || option.key == "theme" ||
-                            option.key == "product";
+                            option.key == "product" || &option == &render::overlay_option();
     return option.section == "picture" && !is_of_page && is_of_frames(option) &&
            !(option.used_by.only && !render::is_map(*option.used_by.only));
 }

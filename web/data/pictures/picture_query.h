@@ -25,9 +25,10 @@ struct PictureQuery {
 };
 
 using TakesOption = bool (*)(const render::PictureOption&);
-// Returns true for every option of a picture.
+// Returns true for every option of a picture. The only overlay is "cells".
 [[nodiscard]] bool is_of_frames(const render::PictureOption& option);
-// Returns true for options that apply to a bare map: all but product, size, theme and labels.
+// Returns true for options that apply to a bare map: all but product, size, theme, overlay and
+// labels.
 [[nodiscard]] bool is_of_bare_maps(const render::PictureOption& option);
 
 // Reads the options that `takes` allows. Ignores parameters named in `others`, which the caller

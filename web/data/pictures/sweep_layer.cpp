@@ -17,7 +17,7 @@ bool is_sweep_layer(std::string_view name) {
 }
 
 bool is_of_sweep_layers(const render::PictureOption& option) {
-    return is_of_bare_maps(option) && option.is_used_by(ppi) &&
+    return is_of_bare_maps(option) && (option.is_used_by(ppi) || option.used_by_moment) &&
            &option != &render::moment_option() && option.key != "smooth" && option.key != "glyphs";
 }
 

@@ -39,6 +39,7 @@ class StormScans {
     [[nodiscard]] Result<retrieve::TrackedScan> track(const StormArea& area);
 
     [[nodiscard]] const std::shared_ptr<Grids>& grids() const { return grids_; }
+    [[nodiscard]] const retrieve::FreezingLevels& freezing() const { return freezing_; }
     // Returns the number of grids that were searched.
     [[nodiscard]] std::uint64_t searched() const;
 

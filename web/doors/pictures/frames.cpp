@@ -12,6 +12,7 @@
 #include "stormcellar/render/product.h"
 #include "web/data/grids/text_answer.h"
 #include "web/data/pictures/picture_query.h"
+#include "web/data/storms/marked_cells.h"
 
 namespace stormcellar::web {
 namespace {
@@ -93,8 +94,10 @@ Found<FramesDoor::Asked> FramesDoor::asked(const Request& request) const {
     auto style = frame_style(name, request.query, read_by_door);
     if (!style) return tl::unexpected(picture_error(style.error()));
     Asked asked{std::string(name.substr(0, name.rfind('.'))), std::move(*style), {}, {}, {}};
-    asked.moments =
-        asked.is_of_sweep() ? grids_->moments(asked.domain) : moments_of_panels(asked.style);
+    asked.moments = asked.is_of_sweep() ? grids_->moments(asked.domain)
+                    : asked.style.hours > 0
+                        ? std::vector{RainTotals::listed_moment(*grids_, asked.domain)}
+                        : moments_of_panels(asked.style);
     if (request.parameters("time").size() > 1)
         return tl::unexpected(sentence(400, "time is given more than once."));
     const std::string_view text = request.parameter("time").value_or("latest");
@@ -116,7 +119,7 @@ Found<FramesDoor::Asked> FramesDoor::asked(const Request& request) const {
         return tl::unexpected(
             no_grid_to_draw(asked.domain, asked.moments, is_evicted, exact.has_value()));
     }
-    if (exact == asked.time) asked.max_age = answer_holds_for;
+    if (exact == asked.time && asked.style.hours == 0) asked.max_age = answer_holds_for;
     return asked;
 }
 
@@ -141,10 +144,12 @@ std::optional<Answer> FramesDoor::answer_at_once(const Request& request) {
     auto what = asked(request);
     if (!what)
         return segments_of(request.path).size() == 1 ? std::nullopt : std::optional(what.error());
-    if (what->is_of_sweep()) return std::nullopt;
+    if (what->is_of_sweep() || render::marks_cells(what->style.options)) return std::nullopt;
     FramePicture picture{what->domain, {}, std::move(what->style)};
+    const int hours = picture.style.hours;
     for (const render::PanelScene& panel : picture.style.panels) {
-        auto grid = grids_->find_if_open(what->domain, panel.moment, what->time);
+        auto grid = hours > 0 ? rain_->find_if_kept(what->domain, hours, what->time)
+                              : grids_->find_if_open(what->domain, panel.moment, what->time);
         if (!grid) return std::nullopt;
         if (grid->may_change()) what->max_age.reset();
         picture.grids.push_back(std::move(grid));
@@ -159,18 +164,41 @@ Answer FramesDoor::answer(const Request& request) {
     if (segments_of(request.path).size() == 1) return index(request);
     auto what = asked(request);
     if (!what) return what.error();
+    if (const Status found = find_cells(*what); !found) return picture_error(found.error());
     if (what->is_of_sweep()) return of_sweep(request, std::move(*what));
-    FramePicture picture{what->domain, {}, std::move(what->style)};
-    for (const render::PanelScene& panel : picture.style.panels) {
-        auto grid = grid_named(*grids_, what->domain, panel.moment, format_utc(what->time));
-        if (!grid) return grid.error();
-        if ((*grid)->may_change()) what->max_age.reset();
-        picture.grids.push_back(std::move(*grid));
-    }
-    if (auto same = unchanged_answer(request, picture.etag(), what->max_age)) return *same;
-    const auto drawn = pictures_->find_or_draw(picture);
+    const auto picture = picture_of(*what);
+    if (!picture) return picture.error();
+    if (auto same = unchanged_answer(request, picture->etag(), what->max_age)) return *same;
+    const auto drawn = pictures_->find_or_draw(*picture);
     if (!drawn) return picture_error(drawn.error());
     return picture_answer(request, *drawn, what->max_age);
+}
+
+Status FramesDoor::find_cells(Asked& asked) const {
+    FrameStyle& style = asked.style;
+    if (!render::marks_cells(style.options)) return {};
+    asked.max_age.reset();  // an older grid, through which cells were followed, may be made again
+    auto marked =
+        marked_cells(*scans_, asked.domain, asked.time,
+                     render::chosen_freezing_levels(style.options, style.panels.front().scene));
+    if (!marked) return pass_on(marked);
+    style.cells = std::move(marked->overlay);
+    style.key += marked->key;
+    return {};
+}
+
+Found<FramePicture> FramesDoor::picture_of(Asked& asked) const {
+    FramePicture picture{asked.domain, {}, std::move(asked.style)};
+    const std::string time = format_utc(asked.time);
+    const int hours = picture.style.hours;
+    for (const render::PanelScene& panel : picture.style.panels) {
+        auto grid = hours > 0 ? total_named(*grids_, *rain_, asked.domain, hours, time)
+                              : grid_named(*grids_, asked.domain, panel.moment, time);
+        if (!grid) return tl::unexpected(grid.error());
+        if ((*grid)->may_change()) asked.max_age.reset();
+        picture.grids.push_back(std::move(*grid));
+    }
+    return picture;
 }
 
 Answer FramesDoor::of_sweep(const Request& request, Asked what) {

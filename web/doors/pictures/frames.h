@@ -19,6 +19,8 @@
 
 #include "web/data/pictures/frame_pictures.h"
 #include "web/data/pictures/sweep_pictures.h"
+#include "web/data/storms/rain_totals.h"
+#include "web/data/storms/storm_scans.h"
 #include "web/doors/pictures/picture_answers.h"
 #include "web/http/door.h"
 
@@ -27,8 +29,13 @@ namespace stormcellar::web {
 class FramesDoor final : public Door {
   public:
     FramesDoor(std::shared_ptr<Grids> grids, std::shared_ptr<FramePictures> pictures,
-               std::shared_ptr<SweepPictures> sweeps)
-        : grids_(std::move(grids)), pictures_(std::move(pictures)), sweeps_(std::move(sweeps)) {}
+               std::shared_ptr<SweepPictures> sweeps, std::shared_ptr<RainTotals> rain,
+               std::shared_ptr<StormScans> scans)
+        : grids_(std::move(grids)),
+          pictures_(std::move(pictures)),
+          sweeps_(std::move(sweeps)),
+          rain_(std::move(rain)),
+          scans_(std::move(scans)) {}
     // Answers with a kept picture if its grids are open, or refuses. Leaves pictures of sweeps to
     // answer().
     std::optional<Answer> answer_at_once(const Request& request) override;
@@ -52,11 +59,17 @@ class FramesDoor final : public Door {
     // only one. Returns false if there is no such instant.
     [[nodiscard]] bool find_grids(Asked& asked, UtcTime until) const;
     [[nodiscard]] Answer of_sweep(const Request& request, Asked asked);
+    // Finds the storm cells that the picture marks. They are those of the newest grid at its time.
+    [[nodiscard]] Status find_cells(Asked& asked) const;
+    // Opens the grids of the picture, or makes its rain total.
+    [[nodiscard]] Found<FramePicture> picture_of(Asked& asked) const;
     [[nodiscard]] Answer index(const Request& request) const;
 
     std::shared_ptr<Grids> grids_;
     std::shared_ptr<FramePictures> pictures_;
     std::shared_ptr<SweepPictures> sweeps_;
+    std::shared_ptr<RainTotals> rain_;
+    std::shared_ptr<StormScans> scans_;
 };
 
 }  // namespace stormcellar::web

@@ -20,6 +20,21 @@ Answer no_such_grid(Grids& grids, std::string_view domain, level2::Moment moment
     return sentence(404, what + " is not in the cache.");
 }
 
+using FoundGrid = Found<std::shared_ptr<const OpenGrid>>;
+
+// `moment` has the times of the grids that `find` finds.
+template <class Find>
+FoundGrid found_at(Grids& grids, std::string_view domain, level2::Moment moment,
+                   std::string_view time, Find find) {
+    const auto instant = time_of_grid(grids, domain, moment, time);
+    if (!instant) return tl::unexpected(picture_error(instant.error()));
+    auto grid = find(*instant);
+    if (grid) return std::move(*grid);
+    if (grid.error().code == ErrorCode::not_found)
+        return tl::unexpected(no_such_grid(grids, domain, moment, *instant));
+    return tl::unexpected(picture_error(grid.error()));
+}
+
 }  // namespace
 
 Answer picture_error(const Error& error) {
@@ -31,13 +46,22 @@ Answer picture_error(const Error& error) {
 
 Found<std::shared_ptr<const OpenGrid>> grid_named(Grids& grids, std::string_view domain,
                                                   level2::Moment moment, std::string_view time) {
-    const auto instant = time_of_grid(grids, domain, moment, time);
-    if (!instant) return tl::unexpected(picture_error(instant.error()));
-    auto grid = grids.find(domain, moment, *instant);
-    if (grid) return std::move(*grid);
-    if (grid.error().code == ErrorCode::not_found)
-        return tl::unexpected(no_such_grid(grids, domain, moment, *instant));
-    return tl::unexpected(picture_error(grid.error()));
+    return found_at(grids, domain, moment, time,
+                    [&](UtcTime instant) { return grids.find(domain, moment, instant); });
+}
+
+Found<std::shared_ptr<const OpenGrid>> total_named(Grids& grids, RainTotals& rain,
+                                                   std::string_view domain, int hours,
+                                                   std::string_view time) {
+    return found_at(
+        grids, domain, RainTotals::listed_moment(grids, domain), time,
+        [&](UtcTime instant) { return rain.find(std::string(domain), hours, instant); });
+}
+
+Found<std::shared_ptr<const OpenGrid>> grid_named(MapPictures& pictures, std::string_view domain,
+                                                  const MapProduct& layer, std::string_view time) {
+    return found_at(pictures.grids(), domain, pictures.listed_moment(domain, layer), time,
+                    [&](UtcTime instant) { return pictures.find_grid(domain, layer, instant); });
 }
 
 std::optional<GridOfSweep> grid_of_sweep(const Grids& grids, std::string_view domain,
@@ -108,8 +132,9 @@ Answer map_answer(const Request& request, MapPictures& pictures, const MapPictur
     return picture_answer(request, *drawn, max_age);
 }
 
-std::optional<std::chrono::seconds> max_age_of(std::string_view time, const OpenGrid& grid) {
-    if (time == "latest" || grid.may_change()) return std::nullopt;
+std::optional<std::chrono::seconds> max_age_of(std::string_view time, const OpenGrid& grid,
+                                               int hours) {
+    if (time == "latest" || grid.may_change() || hours > 0) return std::nullopt;
     return answer_holds_for;
 }
 

@@ -14,6 +14,7 @@
 #include "web/data/grids/kept_answers.h"
 #include "web/data/pictures/map_pictures.h"
 #include "web/data/pictures/sweep_pictures.h"
+#include "web/data/storms/rain_totals.h"
 #include "web/http/answer.h"
 
 namespace stormcellar::web {
@@ -31,6 +32,17 @@ using Found = tl::expected<Value, Answer>;
                                                                 std::string_view domain,
                                                                 level2::Moment moment,
                                                                 std::string_view time);
+
+// The same for the grid of a layer: a kept grid, or a rain total. A total that is not ready yet is
+// refused with 503.
+[[nodiscard]] Found<std::shared_ptr<const OpenGrid>> grid_named(MapPictures& pictures,
+                                                                std::string_view domain,
+                                                                const MapProduct& layer,
+                                                                std::string_view time);
+// The same for a rain total of these hours.
+[[nodiscard]] Found<std::shared_ptr<const OpenGrid>> total_named(Grids& grids, RainTotals& rain,
+                                                                 std::string_view domain, int hours,
+                                                                 std::string_view time);
 
 // A grid whose raw volume has the sweep to show.
 struct GridOfSweep {
@@ -69,8 +81,8 @@ struct GridOfSweep {
 // Clients may reuse an answer that depends only on a grid for this time, without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
 // Returns `answer_holds_for`. Returns none (the client must revalidate) if the grid was requested
-// as "latest" or may change.
+// as "latest" or may change, as do rain totals, whose older grids may be made again.
 [[nodiscard]] std::optional<std::chrono::seconds> max_age_of(std::string_view time,
-                                                             const OpenGrid& grid);
+                                                             const OpenGrid& grid, int hours = 0);
 
 }  // namespace stormcellar::web

@@ -65,11 +65,8 @@ TileJson bounds_of(const render::EarthBox& box) {
 }
 
 TileJson layer_json(const Request& request, std::string_view domain, const MapProduct& layer) {
-    render::Scene scene;
-    scene.product = layer.product;
-    scene.moment = layer.moment;
     return {{"layer", layer.name()},
-            {"title", render::product_title(scene)},
+            {"title", title_of(layer)},
             {"tilejson", fmt::format("{}/tiles/{}/{}/latest/tilejson.json", request.base, domain,
                                      layer.name())}};
 }
@@ -135,14 +132,15 @@ std::optional<Answer> TilesDoor::answer_at_once(const Request& request) {
     if (path.size() != segments_of_a_tile) return std::nullopt;
     const auto asked = asked_tile(request, path);
     if (!asked) return std::nullopt;
-    Grids& grids = pictures_->grids();
-    const auto time = time_of_grid(grids, path[1], asked->style.layer.moment, path[3]);
+    const MapProduct& layer = asked->style.layer;
+    const auto time = time_of_grid(pictures_->grids(), path[1],
+                                   pictures_->listed_moment(path[1], layer), path[3]);
     if (!time) return std::nullopt;
-    const auto grid = grids.find_if_open(path[1], asked->style.layer.moment, *time);
+    const auto grid = pictures_->find_grid_if_open(path[1], layer, *time);
     if (!grid) return std::nullopt;
     return kept_map_answer(request, *pictures_,
                            {{{grid, asked->style}}, window_of(asked->place), {}},
-                           max_age_of(path[3], *grid));
+                           max_age_of(path[3], *grid, layer.hours));
 }
 
 Answer TilesDoor::answer(const Request& request) {
@@ -161,7 +159,7 @@ Answer TilesDoor::index(const Request& request) {
         if (cache::is_part(domain)) continue;
         TileJson layers = TileJson::array();
         const auto moments = pictures_->grids().moments(domain);
-        for (const MapProduct& layer : map_products_of(moments))
+        for (const MapProduct& layer : pictures_->layers_of(domain))
             layers.push_back(layer_json(request, domain, layer));
         const bool has_sweeps = pictures_->sweeps() != nullptr && find_station(domain);
         for (const level2::Moment moment : moments)
@@ -186,7 +184,7 @@ Answer TilesDoor::tilejson(const Request& request, const std::vector<std::string
     if (!layer) return picture_error(layer.error());
     auto style = map_style(*layer, request.query, {});
     if (!style) return picture_error(style.error());
-    const auto grid = grid_named(pictures_->grids(), path[1], layer->moment, path[3]);
+    const auto grid = grid_named(*pictures_, path[1], *layer, path[3]);
     if (!grid) return grid.error();
     return tilejson_of(request, path, {*grid, std::move(*style)}, (*grid)->file.description().spec);
 }
@@ -203,8 +201,8 @@ Answer TilesDoor::tilejson_of(const Request& request, const std::vector<std::str
         request,
         {{"tilejson", "3.0.0"},
          {"name", fmt::format("{} {}", grid.domain, name)},
-         {"description",
-          fmt::format("{}, {}", render::product_title(layer.style.scene), format_utc(grid.time))},
+         {"description", fmt::format("{}, {}", title_of(layer.style.layer, layer.style.scene),
+                                     format_utc(grid.time))},
          {"scheme", "xyz"},
          {"tiles", TileJson::array({tiles})},
          {"minzoom", 0},
@@ -249,11 +247,12 @@ Answer TilesDoor::tile(const Request& request, const std::vector<std::string_vie
     }
     auto asked = asked_tile(request, path);
     if (!asked) return picture_error(asked.error());
-    const auto grid = grid_named(pictures_->grids(), path[1], asked->style.layer.moment, path[3]);
+    const int hours = asked->style.layer.hours;
+    const auto grid = grid_named(*pictures_, path[1], asked->style.layer, path[3]);
     if (!grid) return grid.error();
     return map_answer(request, *pictures_,
                       {{{*grid, std::move(asked->style)}}, window_of(asked->place), {}},
-                      max_age_of(path[3], **grid));
+                      max_age_of(path[3], **grid, hours));
 }
 
 }  // namespace stormcellar::web

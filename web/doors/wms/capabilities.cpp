@@ -7,6 +7,7 @@
 
 #include "stormcellar/cache/grid_name.h"
 #include "stormcellar/render/product.h"
+#include "web/data/storms/rain_totals.h"
 #include "web/doors/wms/request.h"
 #include "web/doors/xml_writer.h"
 
@@ -21,6 +22,7 @@ struct MomentOfDomain {
     render::EarthBox box;
     UtcTime newest;
     std::vector<UtcTime> times;
+    bool names_totals;  // its times are those of rain totals
 };
 
 std::vector<MomentOfDomain> moments_of(MapPictures& pictures, const std::string& domain) {
@@ -33,7 +35,9 @@ std::vector<MomentOfDomain> moments_of(MapPictures& pictures, const std::string&
         const auto grid = grids.find(domain, moment, *newest);
         if (!grid) continue;
         const render::EarthBox box = pictures.box_of(domain, (*grid)->file.description().spec);
-        moments.push_back({moment, box, *newest, std::move(times)});
+        const bool names_totals =
+            times.size() > 1 && moment == RainTotals::listed_moment(grids, domain);
+        moments.push_back({moment, box, *newest, std::move(times), names_totals});
     }
     return moments;
 }
@@ -235,19 +239,16 @@ void CapabilitiesWriter::write(const std::string& domain, const MomentOfDomain& 
                             fmt::format("{} {}", domain, level2::moment_name(moment.moment)));
     write_box(moment.box);
     for (const MapProduct& layer : map_products_of({moment.moment}))
-        write(domain, layer, moment);
+        if (layer.hours == 0 || moment.names_totals) write(domain, layer, moment);
     xml_.close();
 }
 
 void CapabilitiesWriter::write(const std::string& domain, const MapProduct& layer,
                                const MomentOfDomain& moment) {
-    render::Scene scene;
-    scene.product = layer.product;
-    scene.moment = layer.moment;
     const std::string name = wms_layer_name(domain, layer);
     xml_.open("Layer", {{"queryable", "1"}})
         .leaf("Name", name)
-        .leaf("Title", fmt::format("{}: {}", domain, render::product_title(scene)));
+        .leaf("Title", fmt::format("{}: {}", domain, title_of(layer)));
     write_times(moment);
     write_styles(name, styles_.of(layer));
     xml_.close();

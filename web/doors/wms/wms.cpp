@@ -50,9 +50,10 @@ struct ShownTime {
     UtcTime time;
     std::string warning;
 };
-WmsRead<ShownTime> shown_time(const Grids& grids, const WmsLayer& layer,
+WmsRead<ShownTime> shown_time(MapPictures& pictures, const WmsLayer& layer,
                               std::optional<UtcTime> asked) {
-    const level2::Moment moment = layer.style.layer.moment;
+    const Grids& grids = pictures.grids();
+    const level2::Moment moment = pictures.listed_moment(layer.domain, layer.style.layer);
     const auto newest = grids.newest(layer.domain, moment);
     if (!newest)
         return wms_fault("LayerNotDefined",
@@ -132,15 +133,15 @@ std::string geo_json(const std::vector<LayerValue>& values, const grid::GeoPoint
 }  // namespace
 
 WmsRead<std::shared_ptr<const OpenGrid>> WmsDoor::opened(const std::string& domain,
-                                                         level2::Moment moment, UtcTime time) {
-    auto grid = pictures_->grids().find(domain, moment, time);
+                                                         const MapProduct& layer, UtcTime time) {
+    auto grid = pictures_->find_grid(domain, layer, time);
     if (grid) return std::move(*grid);
     return tl::unexpected(fault_of(grid.error()));
 }
 
 WmsDoor::FindGrid WmsDoor::opener() {
-    return [this](const std::string& domain, level2::Moment moment, UtcTime time) {
-        return opened(domain, moment, time);
+    return [this](const std::string& domain, const MapProduct& layer, UtcTime time) {
+        return opened(domain, layer, time);
     };
 }
 
@@ -149,11 +150,11 @@ WmsRead<WmsDoor::TimedPicture> WmsDoor::timed_picture(const WmsMap& map,
     TimedPicture timed{{{}, map.window, map.ground, map.is_jpeg ? ".jpg" : ".png"}, {}, {}};
     if (map.time) timed.max_age = answer_holds_for;
     for (const WmsLayer& layer : map.layers) {
-        auto shown = shown_time(pictures_->grids(), layer, map.time);
+        auto shown = shown_time(*pictures_, layer, map.time);
         if (!shown) return tl::unexpected(shown.error());
-        auto grid = find(layer.domain, layer.style.layer.moment, shown->time);
+        auto grid = find(layer.domain, layer.style.layer, shown->time);
         if (!grid) return tl::unexpected(grid.error());
-        if ((*grid)->may_change()) timed.max_age.reset();
+        if ((*grid)->may_change() || layer.style.layer.hours > 0) timed.max_age.reset();
         timed.picture.layers.push_back({std::move(*grid), layer.style});
         if (!shown->warning.empty()) {
             // A grid that is nearer may still come.
@@ -169,12 +170,11 @@ std::optional<Answer> WmsDoor::answer_at_once(const Request& request) {
     if (parameters.find("REQUEST") != "GetMap") return std::nullopt;
     const auto map = wms_map(parameters, now_utc());
     if (!map) return fault_answer(request, map.error());
-    Grids& grids = pictures_->grids();
     const auto timed =
         timed_picture(*map,
-                      [&grids](const std::string& domain, level2::Moment moment,
-                               UtcTime time) -> WmsRead<std::shared_ptr<const OpenGrid>> {
-                          auto grid = grids.find_if_open(domain, moment, time);
+                      [this](const std::string& domain, const MapProduct& layer,
+                             UtcTime time) -> WmsRead<std::shared_ptr<const OpenGrid>> {
+                          auto grid = pictures_->find_grid_if_open(domain, layer, time);
                           if (!grid) return wms_fault("", "The grid is not open.");
                           return grid;
                       });
@@ -254,8 +254,8 @@ Answer WmsDoor::feature_info(const Request& request) {
         if (!found) return fault_answer(request, fault_of(found.error()));
         const render::Scene& scene = layer.style.scene;
         values.push_back({wms_layer_name(layer.grid->domain, layer.style.layer),
-                          render::product_title(scene), render::unit_shown(scene), layer.grid->time,
-                          *found});
+                          title_of(layer.style.layer, scene), render::unit_shown(scene),
+                          layer.grid->time, *found});
     }
     if (format == "text/plain")
         return text_answer_to(request, "text/plain; charset=utf-8", plain_text(values));
@@ -271,9 +271,11 @@ Answer WmsDoor::legend(const Request& request) {
     if (layers->size() != 1)
         return fault_answer(request, {"LayerNotDefined", "LAYER is one layer, not a list."});
     const WmsLayer& layer = layers->front();
-    const auto shown = shown_time(pictures_->grids(), layer, {});
+    const auto shown = shown_time(*pictures_, layer, {});
     if (!shown) return fault_answer(request, shown.error());
-    auto grid = opened(layer.domain, layer.style.layer.moment, shown->time);
+    // The colors of a rain total do not depend on the total.
+    const level2::Moment moment = pictures_->listed_moment(layer.domain, layer.style.layer);
+    auto grid = opened(layer.domain, {layer.style.layer.product, moment}, shown->time);
     if (!grid) return fault_answer(request, grid.error());
     const auto drawn = MapPictures::legend({std::move(*grid), layer.style});
     if (!drawn) return fault_answer(request, fault_of(drawn.error()));

@@ -44,11 +44,11 @@ class WmsDoor final : public Door {
         std::optional<std::chrono::seconds> max_age;  // none: clients must revalidate each use
     };
     using FindGrid = std::function<WmsRead<std::shared_ptr<const OpenGrid>>(
-        const std::string& domain, level2::Moment moment, UtcTime time)>;
+        const std::string& domain, const MapProduct& layer, UtcTime time)>;
     [[nodiscard]] WmsRead<TimedPicture> timed_picture(const WmsMap& map,
                                                       const FindGrid& find) const;
     [[nodiscard]] WmsRead<std::shared_ptr<const OpenGrid>> opened(const std::string& domain,
-                                                                  level2::Moment moment,
+                                                                  const MapProduct& layer,
                                                                   UtcTime time);
     [[nodiscard]] FindGrid opener();
 

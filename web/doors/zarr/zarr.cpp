@@ -88,7 +88,7 @@ std::string made_cells(const OpenGrid& grid, const ZarrArray& array,
 
 struct ZarrDoor::Named {
     std::string domain;
-    level2::Moment moment;
+    level2::Moment moment;             // whose grids have the times
     std::optional<MapStyle> map = {};  // none: all cells of the moment
 
     [[nodiscard]] std::string name() const {
@@ -97,6 +97,7 @@ struct ZarrDoor::Named {
     [[nodiscard]] std::string array() const {
         return map ? render::map_variable(map->layer.product) : name();
     }
+    [[nodiscard]] int hours() const { return map ? map->layer.hours : 0; }
     // Returns the number of dimensions of the arrays that have cells or columns.
     [[nodiscard]] std::size_t dimensions() const { return map ? 3 : 4; }
 };
@@ -117,7 +118,21 @@ std::optional<ZarrDoor::Named> ZarrDoor::named(const std::vector<std::string_vie
     if (!layer) return std::nullopt;
     auto style = map_style(*layer, {}, {});
     if (!style) return std::nullopt;
-    return Named{std::string(path[1]), layer->moment, std::move(*style)};
+    const level2::Moment listed = sources_.maps->listed_moment(path[1], *layer);
+    return Named{std::string(path[1]), listed, std::move(*style)};
+}
+
+Result<std::shared_ptr<const OpenGrid>> ZarrDoor::find_grid(const Named& named,
+                                                            UtcTime time) const {
+    return named.map ? sources_.maps->find_grid(named.domain, named.map->layer, time)
+                     : sources_.grids->find(named.domain, named.moment, time);
+}
+
+// Returns true if the grid has these cells. Only the columns of a rain total count.
+bool ZarrDoor::has_same_columns(const Named& named, grid::GridSpec spec, const OpenGrid& grid) {
+    const grid::GridSpec& own = grid.file.description().spec;
+    if (named.hours() > 0) spec.levels_m = own.levels_m;
+    return spec == own;
 }
 
 // Describes the group from the newest grid. Each request does this, because it takes only
@@ -177,7 +192,7 @@ bool ZarrDoor::has_cells_of_newest(const Named& named, const OpenGrid& grid) con
     const auto time = sources_.grids->newest(named.domain, named.moment);
     if (!time) return false;
     const auto newest = sources_.grids->find_if_open(named.domain, named.moment, *time);
-    return newest && newest->file.description().spec == grid.file.description().spec;
+    return newest && has_same_columns(named, newest->file.description().spec, grid);
 }
 
 std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
@@ -191,11 +206,13 @@ std::optional<Answer> ZarrDoor::answer_at_once(const Request& request) {
     const auto time =
         sources_.numbers->time_of(group->domain, level2::moment_name(group->moment), (*place)[0]);
     if (!time) return std::nullopt;
-    const auto grid = sources_.grids->find_if_open(group->domain, group->moment, *time);
+    const auto grid =
+        group->map ? sources_.maps->find_grid_if_open(group->domain, group->map->layer, *time)
+                   : sources_.grids->find_if_open(group->domain, group->moment, *time);
     if (!grid || !has_cells_of_newest(*group, *grid)) return std::nullopt;
     const auto kept = sources_.kept->find(chunk_key(*grid, group->name(), rest[0], *place));
     if (!kept) return std::nullopt;
-    return zarr_chunk(request, *kept, max_age_of("", *grid));
+    return zarr_chunk(request, *kept, max_age_of("", *grid, group->hours()));
 }
 
 Answer ZarrDoor::answer(const Request& request) {
@@ -235,7 +252,7 @@ Answer ZarrDoor::index(const Request& request) const {
         const auto moments = sources_.grids->moments(domain);
         for (const level2::Moment moment : moments)
             groups.push_back(group_named(domain, moment, level2::moment_name(moment)));
-        for (const MapProduct& layer : map_products_of(moments)) {
+        for (const MapProduct& layer : sources_.maps->layers_of(domain)) {
             products.push_back(group_named(domain, layer.moment, layer.name()));
             products.back()["product"] = layer.name();
         }
@@ -323,12 +340,12 @@ Result<Kept> ZarrDoor::made(const OpenGrid& grid, const Named& named, const Zarr
 Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened& opened,
                        const ZarrArray& array, const std::vector<std::size_t>& place) const {
     const UtcTime time = (*opened.times)[place[0]];
-    const auto grid = sources_.grids->find(named.domain, named.moment, time);
+    const auto grid = find_grid(named, time);
     if (!grid && grid.error().code == ErrorCode::not_found)
         return sentence(404, fmt::format("The grid of {} was evicted. Its cells are unavailable.",
                                          format_utc(time)));
     if (!grid) return picture_error(grid.error());
-    if ((*grid)->file.description().spec != opened.spec())
+    if (!has_same_columns(named, opened.spec(), **grid))
         return sentence(404,
                         fmt::format("The grid of {} has other cells than the newest one, whose "
                                     "array this is. See /api/v1/grids for it.",
@@ -337,7 +354,7 @@ Answer ZarrDoor::cells(const Request& request, const Named& named, const Opened&
         sources_.kept->find_or_make(chunk_key(**grid, named.name(), array.name, place),
                                     [&] { return made(**grid, named, array, place); });
     if (!kept) return picture_error(kept.error());
-    return zarr_chunk(request, *kept, max_age_of("", **grid));
+    return zarr_chunk(request, *kept, max_age_of("", **grid, named.hours()));
 }
 
 }  // namespace stormcellar::web

@@ -49,6 +49,10 @@ class ZarrDoor final : public Door {
 
     [[nodiscard]] std::optional<Named> named(const std::vector<std::string_view>& path) const;
     [[nodiscard]] Result<Opened> open(const Named& named) const;
+    [[nodiscard]] Result<std::shared_ptr<const OpenGrid>> find_grid(const Named& named,
+                                                                    UtcTime time) const;
+    [[nodiscard]] static bool has_same_columns(const Named& named, grid::GridSpec spec,
+                                               const OpenGrid& grid);
     [[nodiscard]] bool has_cells_of_newest(const Named& named, const OpenGrid& grid) const;
     [[nodiscard]] Answer index(const Request& request) const;
     [[nodiscard]] Answer document(const Request& request, const Opened& opened,
