@@ -6,9 +6,9 @@
 // reflectivity. It ends at the middle of the time of that grid, and takes no later grid. If a grid
 // of its time comes, changes or goes, the total is made again.
 //
-// A total of a day takes seconds, and of a large domain minutes. One thread makes all totals, one
-// after another. One request at a time waits for its total, for at most `patience`; others are told
-// to come back. Totals of too many cells and of too many grids are refused.
+// A million columns full of echo take 2.7 s, so an hour of a radar takes 7 s and a day 160 s. One
+// thread makes all totals, one after another. One request at a time waits for its total, for at
+// most `patience`; others are told to come back. Totals of too many columns or grids are refused.
 //
 // Units     Hours are whole, from 1 to 24.
 // Threads   Many threads may use it.
@@ -42,7 +42,7 @@ struct RainTotalsOptions {
     std::size_t most_in_line = 16;
     // The most grids of one total, and the most columns of all its grids.
     std::size_t most_grids = 800;
-    double most_columns = 4e8;
+    double most_columns = 1e8;
     int threads = 1;  // for one total
 };
 
