@@ -7,7 +7,7 @@
 //
 // A grid in latitude and longitude has template 3.0, a Lambert grid template 3.30. GRIB2 has no
 // template for azimuthal_equidistant about any place. Rows run from south to north. Values are
-// packed as PNG (template 5.41), as those of MRMS are.
+// packed simply, in 16 bits (template 5.0).
 //
 // ecCodes is in the module stormcellar_grib.so, which is loaded when the first file is written.
 //

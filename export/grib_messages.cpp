@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -217,13 +218,9 @@ std::vector<std::byte> with_notes(const std::vector<std::byte>& message, const M
     return whole;
 }
 
-// Chooses a packing. PNG cannot hold numbers that are all equal.
-void pack(Message& message, const std::vector<double>& numbers, const char* usual, long bits) {
-    const auto is_known = [](double number) { return number != missing_value; };
-    const auto first = std::ranges::find_if(numbers, is_known);
-    const bool all_equal = std::ranges::all_of(
-        numbers, [&](double number) { return !is_known(number) || number == *first; });
-    message.set_text("packingType", all_equal ? "grid_simple" : usual);
+// Uses simple packing: the PNG packing of ecCodes ends the program if a map does not compress.
+void pack(Message& message, long bits, const std::vector<double>& numbers) {
+    message.set_text("packingType", "grid_simple");
     message.set("bitsPerValue", bits);
     message.set_values(numbers);
 }
@@ -237,15 +234,15 @@ Result<std::vector<std::byte>> message_of_values(const Map& map) {
     message.set("bitmapPresent", 1);
     message.set_number("missingValue", missing_value);
     constexpr long bits_of_values = 16;
-    pack(message, values, "grid_png", bits_of_values);
+    pack(message, bits_of_values, values);
     return message.bytes();
 }
 
 Result<std::vector<std::byte>> message_of_states(const Map& map) {
     Message message;
     describe(message, map, local_parameter);
-    constexpr long bits_of_states = 8;
-    pack(message, {map.states.begin(), map.states.end()}, "grid_png", bits_of_states);
+    constexpr long bits_of_states = 3;
+    pack(message, bits_of_states, {map.states.begin(), map.states.end()});
     return message.bytes();
 }
 

@@ -201,7 +201,6 @@ TEST(GribMap, HasTheHeightOfALevelAndTheSpanOfASum) {
     EXPECT_EQ(number_of(messages[0], "minute"), 56);
 }
 
-// 2026-11-30: PNG packing has no form for numbers that are all equal.
 TEST(GribMap, HoldsMapsWithOneValueOrNone) {
     const grid::GridSpec spec = degrees_spec();
     for (const float value : {nothing, 45.5F}) {
@@ -213,6 +212,21 @@ TEST(GribMap, HoldsMapsWithOneValueOrNone) {
         ASSERT_TRUE(bytes) << bytes.error().message;
         expect_content(messages_in(*bytes), content);
     }
+}
+
+// 2026-11-30: the PNG packing of ecCodes ended the program if a map did not compress.
+TEST(GribMap, HoldsNoise) {
+    const grid::GridSpec spec = degrees_spec();
+    Content content(spec);
+    std::uint32_t random = 1;
+    for (std::size_t at = 0; at < content.values.size(); ++at) {
+        random = random * 1664525 + 1013904223;
+        content.values[at] = 80.0F * static_cast<float>(random >> 8) / (1 << 24);
+        content.states[at] = static_cast<std::uint8_t>(random >> 29) % 6;
+    }
+    const auto bytes = map_bytes(map_of(spec, content));
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    expect_content(messages_in(*bytes), content);
 }
 
 TEST(GribMap, RefusesWhatItCannotPlace) {
