@@ -12,6 +12,7 @@ const scenes = [
   // name of the picture, parameters of the address
   ['viewer-2d', 'moment=REF&view=2d&zoom=3.4&look-at-km=-35,5,0'],
   ['viewer-cells', 'moment=REF&azimuth=190&tilt=62&zoom=3&field-of-view=40&exaggeration=3&light=gradient&look-at-km=-40,18,4&cells=1'],
+  ['viewer-panes', 'moment=REF&view=2d&zoom=6&look-at-km=-28,-2,0&pane=VEL&pane=VELD&pane=SW'],
 ];
 
 // Returns a picture as WebP, of the best quality that is small enough.

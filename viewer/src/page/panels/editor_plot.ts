@@ -34,8 +34,9 @@ export interface PlotActions {
 }
 
 // Margins in pixels of the plot, which are larger on large screens.
-const [left, right, top, below] = [34, 8, 16, 44];
+const [left, right, top, below] = [34, 8, 16, 48];
 const stripHeight = 16;
+const colorHandleBelow = 25; // so far below the lowest opacity that no handle covers another
 const farthestClick = 4;
 // Ends of the axis of opacity, which is logarithmic. Lower opacities are clear.
 const [leastPerKm, mostPerKm] = [0.0005, 30];
@@ -133,7 +134,7 @@ export class EditorPlot {
         const [low, high] = this.range().map((value) => value * unit.perStored) as [number, number];
         const step = stepOf(high - low);
         pen.textAlign = 'center';
-        const y = this.bottom + stripHeight + 20;
+        const y = this.bottom + below - 7;
         for (let number = Math.ceil(low / step) * step; number <= high + 1e-9; number += step) {
             const x = this.xOf(number / unit.perStored);
             if (x > this.width - right - 36) break;
@@ -211,7 +212,7 @@ export class EditorPlot {
         const value = kind === 'color' ? draft.colors[i]!.value : kind === 'opacity' ? opacity[i]!.value : least;
         const color = kind === 'color' ? draft.colors[i]!.color : null;
         const perKm = kind === 'opacity' ? opacity[i]!.perKm : null;
-        const y = perKm !== null ? this.yOf(perKm) : color ? this.bottom + stripHeight / 2 + 2 : top - 6;
+        const y = perKm !== null ? this.yOf(perKm) : color ? this.bottom + colorHandleBelow : top - 6;
         handle.style.left = `${this.scale * this.xOf(value)}px`;
         handle.style.top = `${this.scale * y}px`;
         if (color) handle.style.backgroundColor = `rgb(${color[0]}, ${color[1]}, ${color[2]})`;
