@@ -17,10 +17,10 @@ struct Name {
     Quantity quantity;
 };
 
-// Names in upper case. Quantities without filters or corrections have higher ranks.
+// Names in upper case, besides those of the moments themselves. Quantities without filters or
+// corrections have higher ranks.
 constexpr auto names = std::to_array<Name>({
     {"DBZH", {Moment::ref, 0}},
-    {"REF", {Moment::ref, 0}},
     {"DBZ", {Moment::ref, 1}},
     {"CZ", {Moment::ref, 1}},
     {"REFLECTIVITY", {Moment::ref, 1}},
@@ -34,7 +34,6 @@ constexpr auto names = std::to_array<Name>({
     {"DBZV", {Moment::ref, 4}},
     {"TV", {Moment::ref, 5}},
     {"VRADH", {Moment::vel, 0}},
-    {"VEL", {Moment::vel, 0}},
     {"VRAD", {Moment::vel, 1}},
     {"VR", {Moment::vel, 1}},
     {"VELOCITY", {Moment::vel, 1}},
@@ -43,29 +42,24 @@ constexpr auto names = std::to_array<Name>({
     {"V", {Moment::vel, 2}},
     {"VRADV", {Moment::vel, 3}},
     {"WRADH", {Moment::sw, 0}},
-    {"SW", {Moment::sw, 0}},
     {"WRAD", {Moment::sw, 1}},
     {"WIDTH", {Moment::sw, 1}},
     {"SPECTRUM_WIDTH", {Moment::sw, 1}},
     {"WIDTH_F", {Moment::sw, 2}},
     {"W", {Moment::sw, 2}},
     {"WRADV", {Moment::sw, 3}},
-    {"ZDR", {Moment::zdr, 0}},
     {"DIFFERENTIAL_REFLECTIVITY", {Moment::zdr, 1}},
     {"ZDR_F", {Moment::zdr, 1}},
     {"UZDR", {Moment::zdr, 2}},
     {"PHIDP", {Moment::phi, 0}},
-    {"PHI", {Moment::phi, 0}},
     {"DIFFERENTIAL_PHASE", {Moment::phi, 1}},
     {"PHIDP_F", {Moment::phi, 1}},
     {"UPHIDP", {Moment::phi, 2}},
     {"RHOHV", {Moment::rho, 0}},
-    {"RHO", {Moment::rho, 0}},
     {"CROSS_CORRELATION_RATIO", {Moment::rho, 1}},
     {"RHOHV_F", {Moment::rho, 1}},
     {"URHOHV", {Moment::rho, 2}},
     {"CCORH", {Moment::cfp, 0}},
-    {"CFP", {Moment::cfp, 0}},
 });
 
 constexpr std::size_t station_letters = 4;
@@ -106,6 +100,8 @@ bool is_elsewhere(const std::string& name, const VolumeBlock& position) {
 
 std::optional<Quantity> quantity_named(std::string_view name) {
     const std::string wanted = upper(name);
+    const auto moment = moment_from_name(wanted);
+    if (moment && !facts_of(*moment).is_derived) return Quantity{*moment, 0};
     const auto found = std::ranges::find(names, wanted, &Name::name);
     return found == names.end() ? std::nullopt : std::optional{found->quantity};
 }
