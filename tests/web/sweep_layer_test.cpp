@@ -9,6 +9,7 @@
 
 #include "grid/place/source_volume.h"
 #include "render/options/sweep_source.h"
+#include "stormcellar/grid/gridder.h"
 #include "stormcellar/grid/site_frame.h"
 #include "stormcellar/level2/decode.h"
 #include "stormcellar/render/product.h"
