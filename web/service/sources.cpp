@@ -81,6 +81,12 @@ void add_pictures(Doors& doors, const Sources& sources, const Pictures& pictures
     doors.add("/loops", std::make_shared<LoopsDoor>(sources.setup.loops));
 }
 
+// Returns the workers that compute grids and decode volumes.
+std::shared_ptr<WorkQueue> long_workers_of(const WebLimits& limits) {
+    return std::make_shared<WorkQueue>(static_cast<unsigned>(limits.renders),
+                                       static_cast<std::size_t>(limits.waiting));
+}
+
 void add_zarr(Doors& doors, const Sources& sources, const std::shared_ptr<KeptAnswers>& kept,
               const std::shared_ptr<MapPictures>& maps,
               const std::shared_ptr<WorkQueue>& long_workers) {
@@ -175,9 +181,7 @@ std::shared_ptr<const Doors> doors_to(const Sources& sources, Measures& measures
     const auto scans = std::make_shared<StormScans>(sources.grids, setup.web.freezing);
     const Watched watched = watch_over(sources, scans);
     const Pictures pictures = pictures_of(sources);
-    // These compute grids and decode volumes.
-    const auto long_workers = std::make_shared<WorkQueue>(static_cast<unsigned>(limits.renders),
-                                                          static_cast<std::size_t>(limits.waiting));
+    const auto long_workers = long_workers_of(limits);
     if (setup.web.serves(WebPart::zarr))
         add_zarr(*doors, sources, kept, pictures.maps, long_workers);
     if (setup.web.serves(WebPart::grids)) {

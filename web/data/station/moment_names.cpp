@@ -1,30 +1,33 @@
 #include "web/data/station/moment_names.h"
 
-namespace stormcellar::web {
+#include "export/exchange_names.h"
 
-MomentNames fm301_names(level2::Moment moment) {
+namespace stormcellar::web {
+namespace {
+
+struct NameAndUnit {
+    std::string_view long_name = {}, unit = {};
+};
+NameAndUnit name_and_unit(level2::Moment moment) {
     using level2::Moment;
+    constexpr std::string_view speed = "meters per seconds";
     switch (moment) {
         case Moment::ref:
-            return {"DBZH", "radar_equivalent_reflectivity_factor_h",
-                    "Equivalent reflectivity factor H", "dBZ"};
+            return {"Equivalent reflectivity factor H", "dBZ"};
         case Moment::vel:
-            return {"VRADH", "radial_velocity_of_scatterers_away_from_instrument_h",
-                    "Radial velocity of scatterers away from instrument H", "meters per seconds"};
+            return {"Radial velocity of scatterers away from instrument H", speed};
         case Moment::sw:
-            return {"WRADH", "radar_doppler_spectrum_width_h", "Doppler spectrum width H",
-                    "meters per seconds"};
+            return {"Doppler spectrum width H", speed};
         case Moment::zdr:
-            return {"ZDR", "radar_differential_reflectivity_hv",
-                    "Log differential reflectivity H/V", "dB"};
+            return {"Log differential reflectivity H/V", "dB"};
         case Moment::phi:
-            return {"PHIDP", "radar_differential_phase_hv", "Differential phase HV", "degrees"};
+            return {"Differential phase HV", "degrees"};
         case Moment::rho:
-            return {"RHOHV", "radar_correlation_coefficient_hv", "Correlation coefficient HV",
-                    "unitless"};
+            return {"Correlation coefficient HV", "unitless"};
         case Moment::cfp:
-            return {"CCORH", "radar_clutter_correction_h", "Clutter Correction H", "dB"};
+            return {"Clutter Correction H", "dB"};
         case Moment::veld:
+            return {"Dealiased radial velocity H", speed};
         case Moment::srv:
         case Moment::azsh:
         case Moment::divg:
@@ -32,9 +35,22 @@ MomentNames fm301_names(level2::Moment moment) {
         case Moment::kdp:
         case Moment::rate:
         case Moment::hca:
-            break;  // no raw file has a derived moment
+            break;
     }
-    return {.name = level2::moment_name(moment), .unit = level2::moment_units(moment)};
+    return {};
+}
+
+}  // namespace
+
+MomentNames fm301_names(level2::Moment moment) {
+    const NameAndUnit named = name_and_unit(moment);
+    if (named.unit.empty())
+        return {.name = level2::moment_name(moment), .unit = level2::moment_units(moment)};
+    const netcdf::ExchangeNames names = netcdf::exchange_names_of(moment);
+    return {.name = names.name,
+            .standard_name = names.standard_name,
+            .long_name = named.long_name,
+            .unit = named.unit};
 }
 
 }  // namespace stormcellar::web

@@ -1,7 +1,7 @@
 // web/data/station/moment_names.h -- the names of moments in FM 301 (CfRadial 2), as xradar 0.12
 // and the Python package write them.
 //
-// Sources   ICD 2620002; CfRadial 2.1, section 5.
+// Source    export/exchange_names.h; long names and units as in xradar.
 // Threads   Pure functions.
 // Errors    None.
 #pragma once
@@ -18,7 +18,7 @@ struct MomentNames {
     std::string_view long_name = {};      // empty: none
     std::string_view unit = {};
 };
-// A moment that FM 301 does not name has our own name and unit.
+// Other moments, which no radar sends, have our own names and units.
 [[nodiscard]] MomentNames fm301_names(level2::Moment moment);
 
 }  // namespace stormcellar::web
