@@ -94,7 +94,7 @@ TEST_F(HailOfAMosaic, IsTheSameInPanels) {
         EXPECT_EQ(result.status, 0) << result.err;
         return read_file(to).value();
     };
-    const Words size = {"--width", "300", "--height", "200"};
+    const Words size = {"--width", "400", "--height", "400"};
     const auto panels = drawn(panel, with(size, {"--panels", "REF"}));
     const auto text = [](const std::vector<std::byte>& bytes) {
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -15,7 +15,9 @@
 namespace stormcellar::cli {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Ppi : public FilesAndService {
   protected:
@@ -242,6 +244,29 @@ TEST_F(Ppi, ALoopGoesThroughTheVolumesOfFilesAndOfADomain) {
         json_of(run({"loop", "KTLX", "--config", out("config.toml"), "--product", "ppi", "--moment",
                      "RHO", "--all-elevations", "--json", "--quiet", "-o", out("b/")}))["frames"],
         5);
+}
+
+// 2026-11-30: HCA ignored --freezing-levels, and the picture did not name the assumed height.
+TEST_F(Ppi, ClassesTakeTheHeightOfZeroDegreesWhereNoLayerIsSeen) {
+    const auto noted = [&](const std::string& file, const Words& more) {
+        const auto drawn = run(with({"frame", volume(file), "--product", "ppi", "--moment", "HCA",
+                                     "--width", "400", "--height", "300", "-o", out("a.png")},
+                                    more));
+        EXPECT_EQ(drawn.status, 0) << drawn.err;
+        return drawn.err;
+    };
+    const Words cold = {"--freezing-levels", "1500,4500"};
+    const std::string no_layer = "KTLX20170101_030027_V06", layer = "KLBB20160601_150025_V06";
+    EXPECT_THAT(noted(no_layer, {}), AllOf(HasSubstr("with 0 C at 4200 m above sea level"),
+                                           HasSubstr("give --freezing-levels")));
+    const auto usual = *read_file(out("a.png"));
+    EXPECT_THAT(noted(no_layer, cold), AllOf(HasSubstr("with 0 C at 1500 m above sea level"),
+                                             Not(HasSubstr("give --freezing-levels"))));
+    EXPECT_NE(*read_file(out("a.png")), usual);
+    EXPECT_THAT(noted(layer, {}), Not(HasSubstr("0 C")));
+    const auto seen = *read_file(out("a.png"));
+    noted(layer, cold);
+    EXPECT_EQ(*read_file(out("a.png")), seen) << "the layer that the radar sees comes first";
 }
 
 TEST_F(Ppi, ALoopRefusesWhatMakesNoSense) {
