@@ -1,4 +1,4 @@
-// Makes the pictures of the page in README.md and docs/viewer.md, at 1440 x 900, of the storms near Moore on 3 May 1999.
+// Makes pictures of the page for README.md and docs/viewer.md, at 1440 x 900: the storms near Moore on 3 May 1999.
 //   stormcellar serve KTLX19990503_235621.gz
 //   node tests/viewer/screenshots.mjs ADDRESS DIRECTORY
 import { writeFileSync } from 'node:fs';

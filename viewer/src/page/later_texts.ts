@@ -84,7 +84,7 @@ export const panelTexts = {
     stills: {
         without: 'This browser has no WebGL 2, so the server draws still pictures.',
         kind: 'Kind of picture',
-        kinds: { volume: '3D', ppi: 'Lowest tilt', composite: 'Composite' },
+        kinds: { volume: '3D', tilt: 'Lowest tilt', maximum: 'Composite' },
     },
     // Tracks below the slider of times.
     tracks: {

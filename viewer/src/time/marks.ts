@@ -15,8 +15,8 @@ export function runsOf(count: number, most: number): Run[] {
     }));
 }
 
-// Returns the indexes of the times that get a label, rising. There are at most `most`, at equal steps, and the last time
-// is among them.
+// Returns the indexes of the times that get a label, rising. There are at most `most`, at equal steps, and the last
+// time is among them.
 export function labeledOf(count: number, most: number): number[] {
     const step = most < 2 ? Math.max(1, count) : Math.max(1, Math.ceil((count - 1) / (most - 1)));
     const found: number[] = [];

@@ -285,18 +285,18 @@ export async function overlayShapes(name: string): Promise<{ left_out?: string[]
     const answer = await ask(`overlays/${encodeURIComponent(name)}.geojson`, { cache: 'no-cache' });
     return (await answer.json()) as { left_out?: string[] };
 }
-// Returns the address of a picture that the server draws of a stored grid, and a function that fetches it. `product` is
-// 'volume', or a product of `stormcellar frame`.
+// Returns the address of a picture that the server draws of a stored grid, and a function that fetches it. `options` are
+// of `stormcellar frame`, with their values: ['--opacity', '2'].
 export function stillPicture(
     domain: string,
     moment: string,
     time: string,
-    product: string,
+    options: readonly string[],
     width: number,
     height: number,
 ): { path: string; fetch: () => Promise<Blob> } {
     const query = new URLSearchParams({ moment, time, width: String(width), height: String(height) });
-    if (product !== 'volume') query.set('product', product);
+    for (let i = 0; i + 1 < options.length; i += 2) query.set(options[i]!.replace('--', ''), options[i + 1]!);
     const path = `frames/${encodeURIComponent(domain)}.png?${query}`;
     return { path, fetch: async () => (await ask(path)).blob() };
 }

@@ -138,8 +138,8 @@ export class OverlayLayers implements GroundShapes {
         this.changed();
         this.drawing.draw();
     }
-    // Returns true if shapes are shown that are in force now. A live page shows a warning at once, and not with the next
-    // volume.
+    // Returns true if shapes are shown that are in force now. A live page shows a warning at once, and not with the
+    // next volume.
     private get isNow(): boolean {
         const { player, server, shown } = this.app;
         const ageMs = server.nowMs - (shown?.loaded.grid.timeMs ?? NaN);

@@ -3,6 +3,7 @@
 
 import { Domain, domains, stillPicture, times } from '../../wire/api';
 import { titleOf } from '../../wire/moments';
+import { Layers, flatLayers, productOf, usualLayers } from '../../scene/layers';
 import { stateOf } from '../../scene/view_state';
 import { button, element, labeledButton, make, pixelRatio, press, putOptions } from '../dom';
 import { panelTexts } from '../later_texts';
@@ -14,6 +15,12 @@ const mostTimes = 500;
 const mostSidePx = 2048;
 const [leastWidthPx, leastHeightPx] = [400, 300];
 type Kind = keyof typeof words.kinds;
+// The layers of each kind of picture, as the page would draw them.
+const layersOf: Record<Kind, Layers> = {
+    volume: usualLayers,
+    tilt: flatLayers(usualLayers),
+    maximum: { ...usualLayers, hasVolume: false, hasMaximum: true },
+};
 
 class StillPage {
     private picture = make('img', { id: 'still', alt: '' });
@@ -29,7 +36,7 @@ class StillPage {
     async begin(): Promise<void> {
         this.build();
         const { domain, moment, time, isFlat } = stateOf(location.hash);
-        Object.assign(this, { domain, moment, time, kind: isFlat ? 'ppi' : 'volume' });
+        Object.assign(this, { domain, moment, time, kind: isFlat ? 'tilt' : 'volume' });
         window.addEventListener('resize', () => this.draw());
         window.addEventListener('hashchange', () => {
             const next = stateOf(location.hash);
@@ -156,7 +163,9 @@ class StillPage {
         const [width, height] = [clientWidth, clientHeight].map((side) =>
             Math.min(mostSidePx, Math.ceil(side * scale)),
         ) as [number, number];
-        void this.load(stillPicture(this.domain, this.moment, time, this.kind, width, height));
+        void this.load(
+            stillPicture(this.domain, this.moment, time, productOf(layersOf[this.kind]) ?? [], width, height),
+        );
     }
     private async load({ path, fetch }: ReturnType<typeof stillPicture>): Promise<void> {
         if (this.shown === path) return;
