@@ -1,6 +1,7 @@
 // Runs the program on files of ODIM_H5 and CfRadial as on Level II files.
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,11 +17,13 @@ using testing::ProgramResult;
 // Two simulated radars, and the second one as a file of another format.
 class ForeignFiles : public ::testing::Test {
   protected:
-    void SetUp() override {
-        const auto files = testing::write_two_radars(directory_.path(), 0);
+    static void SetUpTestSuite() {
+        radars_ = std::make_unique<testing::TemporaryDirectory>();
+        const auto files = testing::write_two_radars(radars_->path(), 0);
         first_ = files.at(0);
         second_ = files.at(1);
     }
+    static void TearDownTestSuite() { radars_.reset(); }
     [[nodiscard]] std::string file(const std::string& name) const {
         return directory_.path() / name;
     }
@@ -31,14 +34,15 @@ class ForeignFiles : public ::testing::Test {
         return file(name);
     }
     nlohmann::json gridded(const Words& files) {
-        const auto json = json_of(
-            run(with({"grid"}, files,
-                     {"-o", file("grid.nc"), "--spacing-km", "2", "--extent-km", "200,200"})));
+        const auto json = json_of(run(with(
+            {"grid"}, files,
+            {"-o", file("grid.nc"), "--json", "--spacing-km", "2", "--extent-km", "200,200"})));
         return json;
     }
 
     testing::TemporaryDirectory directory_;
-    std::string first_, second_;
+    static inline std::unique_ptr<testing::TemporaryDirectory> radars_;
+    static inline std::string first_, second_;
 };
 
 TEST_F(ForeignFiles, AreDescribedGriddedDrawnAndMerged) {
@@ -49,7 +53,7 @@ TEST_F(ForeignFiles, AreDescribedGriddedDrawnAndMerged) {
         SCOPED_TRACE(name);
         const std::string other = converted(name);
         const auto facts = json_of(run({"info", other, "--json"}));
-        EXPECT_EQ(facts.at("station"), "XSYB");
+        EXPECT_EQ(facts.at("site"), "XSYB");
         EXPECT_EQ(facts.at("container"), container);
         const ProgramResult text = run({"info", other});
         EXPECT_NE(text.out.find(container), std::string::npos) << text.out;
@@ -63,7 +67,7 @@ TEST_F(ForeignFiles, AreDescribedGriddedDrawnAndMerged) {
         const ProgramResult drawn = run({"frame", other, "-o", file("picture.png")});
         EXPECT_EQ(drawn.status, 0) << drawn.err;
         EXPECT_TRUE(std::filesystem::exists(file("picture.png")));
-        EXPECT_EQ(run({"frame", other, "ppi", "-o", file("sweep.png")}).status, 0);
+        EXPECT_EQ(run({"frame", other, "--product", "ppi", "-o", file("sweep.png")}).status, 0);
     }
 }
 
