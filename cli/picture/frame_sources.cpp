@@ -119,8 +119,16 @@ Result<PictureGrid> with_merged_hail(const cache::StoreReader& store, const Fram
                                       std::move(hail->bricks));
     const ErrorCode code = hail.error().code;
     if (code != ErrorCode::not_found && code != ErrorCode::over_budget) return pass_on(hail);
-    print_note(pipeline::merged_reflectivity_note + hail.error().message);
-    return grid;
+    const std::string note = pipeline::merged_reflectivity_note + hail.error().message;
+    print_note(note);
+    if (code == ErrorCode::over_budget) return grid;
+    // The output must have the note, too.
+    cache::GridDescription noted = grid.description();
+    noted.provenance.notes.push_back(note);
+    const grid::BrickView view = grid.view();
+    auto copy = grid::BrickGrid::from(grid::to_dense(view), view.quantization);
+    if (Status whole = grid.check_whole(); !whole) return pass_on(whole);
+    return PictureGrid::of_bricks(options.domain, std::move(noted), std::move(copy));
 }
 
 // Returns the grid. If no grid matched, reports that and returns none.
