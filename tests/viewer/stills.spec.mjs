@@ -44,7 +44,7 @@ test('without WebGL, the page shows the picture of the server and says why', asy
   await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/'));
   expect(await viewer.told('moment')).toBe('VEL');
   await expect(viewer.byId('moment-VEL')).toHaveAttribute('aria-pressed', 'true');
-  await viewer.byId('still-kind').selectOption('ppi');
+  await viewer.byId('still-kind').selectOption('tilt');
   await expect(viewer.byId('still')).toHaveAttribute('alt', /velocity.*Lowest tilt/i);
   const tilt = await pictureOf(viewer);
   expect(tilt.colors).toBeGreaterThan(20);
