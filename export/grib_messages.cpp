@@ -22,7 +22,7 @@ namespace {
 constexpr long tables_version = 28;
 constexpr long missing_center = 255, unknown_status = 255, unknown_process = 255;
 constexpr long observation_time = 3;                  // table 1.2
-constexpr long processed_radar = 6;                   // table 1.4
+constexpr long processed_radar = 7;                   // table 1.4
 constexpr long wgs84_earth = 5;                       // table 3.2
 constexpr long observation = 8;                       // table 4.3
 constexpr long point_in_time = 0, sum_over_time = 8;  // templates of section 4

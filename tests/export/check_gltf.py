@@ -72,7 +72,7 @@ def main(program, volume):
             check_surface(points, node["extras"]["value"], grid, 3)
             triangles.append(len(corners))
         assert [node["name"] for node in document["nodes"]] == ["REF 20 dBZ", "REF 45 dBZ", "REF 60 dBZ"]
-        assert triangles[0] > triangles[1] > triangles[2] > 100
+        assert triangles[0] > triangles[1] > triangles[2] > 10, triangles
         print("triangles:", *triangles, "bytes:", (directory / "grid.glb").stat().st_size)
         try:
             import trimesh

@@ -11,13 +11,13 @@ import tempfile
 import netCDF4
 import numpy as np
 
-# The product, its options, GDAL's name of the WMO parameter, and the factor from our unit to WMO's.
+# The product, its options, category and number in WMO's table 4.2, and the factor from our unit to WMO's.
 PRODUCTS = (
-    ("composite", [], "REFC", 1),
-    ("cappi", ["--height-km", "2"], "REFD", 1),
-    ("echotop", [], "RETOP", 1000),
-    ("vil", [], "VIL", 1),
-    ("mesh", [], "HAIL", 0.001),
+    ("composite", [], "16 5", 1),
+    ("cappi", ["--height-km", "2"], "16 4", 1),
+    ("echotop", [], "16 3", 1000),
+    ("vil", [], "15 3", 1),
+    ("mesh", [], "1 31", 0.001),
 )
 
 
@@ -35,14 +35,16 @@ def band_of(grib, number):
     return x[order].reshape(-1, width), y[order].reshape(-1, width), values[order].reshape(-1, width)
 
 
-def check(program, volume, directory, projection, product, options, element, factor):
+def check(program, volume, directory, projection, product, options, parameter, factor):
     grib, netcdf = directory / f"{product}.grib2", directory / f"{product}.nc"
     shape = ["--projection", projection, "--extent-km", "200,160", "--product", product, *options]
     for path in (grib, netcdf):
         run(program, "frame", volume, "-o", path, *shape)
     facts = json.loads(subprocess.run(["gdalinfo", "-json", grib], check=True, stdout=subprocess.PIPE).stdout)
     described = facts["bands"][0]["metadata"][""]
-    assert described["GRIB_ELEMENT"] == element, described
+    assert described["GRIB_DISCIPLINE"].startswith("0"), described
+    assert described["GRIB_PDS_TEMPLATE_NUMBERS"].startswith(parameter + " "), described
+    assert "Processed_radar_observations" in described["GRIB_IDS"], described
     file = netCDF4.Dataset(netcdf)
     name = product if product != "echotop" else "echo_top"
     name = next(known for known in (name, product) if known in file.variables)
