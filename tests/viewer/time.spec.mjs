@@ -180,3 +180,35 @@ test('in 2D, arrows step through the times and keep the tilt', async ({ viewer, 
   expect(tilts[0], 'the second tilt').toBeGreaterThan(0.7);
   expect(Math.max(...tilts) - Math.min(...tilts), `tilts ${tilts}`).toBeLessThan(0.25);
 });
+
+test('panes show one time, step by step and in a loop', async ({ page, viewer, view, times }) => {
+  // Times of day of the sweeps in both panes, in seconds; no number where a pane says that it loads.
+  const sweeps = () =>
+    page.locator('.pane-told').evaluateAll((all) =>
+      all.map(({ textContent }) => {
+        const [, hours, minutes, seconds] = / (\d\d):(\d\d):(\d\d) /.exec(textContent) ?? [];
+        return 3600 * Number(hours) + 60 * Number(minutes) + Number(seconds);
+      }),
+    );
+  const apartS = 180; // the cuts of a tilt follow each other sooner, and volumes later
+  const expectOneTime = async (what) => {
+    const [reflectivity, velocity] = await sweeps();
+    expect(Math.abs(reflectivity - velocity), `${what}: seconds between the sweeps`).toBeLessThan(apartS);
+    return reflectivity;
+  };
+  await viewer.open(`${view}&view=2d&time=${times[0]}&pane=VEL`);
+  await expect(page.locator('.pane')).toHaveCount(2);
+  const seen = new Set([await expectOneTime('at first')]);
+  for (const _ of times.slice(1)) {
+    await viewer.settled(() => viewer.key('.'));
+    seen.add(await expectOneTime('after a step'));
+  }
+  expect(seen.size, 'each step shows another volume').toBe(times.length);
+  await viewer.give('speed', 8);
+  await viewer.key(' ');
+  const looped = new Set();
+  await expect
+    .poll(async () => looped.add(await expectOneTime('in a loop')).size, { message: 'volumes of the loop', timeout: 60_000 })
+    .toBe(times.length);
+  await viewer.key(' ');
+});

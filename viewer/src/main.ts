@@ -42,11 +42,12 @@ function begin(): void {
     loadLayers(app, drawing);
     addCompass(app, drawing);
     addMode(app, drawing);
-    // Tell the style sheet the height of the head, so that panels leave room for all its lines.
-    const head = element('head');
-    new ResizeObserver(() => document.documentElement.style.setProperty('--head', `${head.offsetHeight}px`)).observe(
-        head,
-    );
+    // Tell the style sheet the heights of head and foot, so that panels and panes leave room for all their lines.
+    for (const id of ['head', 'foot']) {
+        const box = element(id);
+        const tell = () => document.documentElement.style.setProperty(`--${id}`, `${box.offsetHeight}px`);
+        new ResizeObserver(tell).observe(box);
+    }
     pointers.begin();
     keys.begin();
     window.addEventListener('hashchange', ({ newURL }) => app.takeAddress(new URL(newURL).hash));

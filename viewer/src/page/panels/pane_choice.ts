@@ -40,7 +40,7 @@ function showTilts(app: App, drawing: Drawing): void {
 export function addPaneChoice(app: App, drawing: Drawing, keys: Keys): void {
     const select = make('select', { id: 'pane-choice', 'aria-label': words.name, title: words.tip });
     for (const [value, text] of Object.entries(words.choices)) select.append(new Option(text, value));
-    element('sight').append(make('div', {}, select));
+    element('mode').after(make('div', {}, select));
     const put = () => (select.value = String(countOf(app)));
     select.addEventListener('change', () => {
         if (select.value === 'moments') showMoments(app);

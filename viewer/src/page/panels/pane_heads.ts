@@ -20,6 +20,8 @@ const isListed = (moment: string): boolean =>
 
 const wide = '(min-width: 1001px)'; // panes have room for buttons of moments; as in the style sheet
 
+const roomPixels = [120, 30] as const; // beside and below a mark for its text
+
 // The elements of a pane.
 interface Head {
     box: HTMLElement;
@@ -132,6 +134,9 @@ export class PaneHeads {
             const pane = this.drawing.panes[i];
             mark.hidden = i === except || !pane;
             mark.style.transform = `translate(${x / pixelRatio()}px, ${y / pixelRatio()}px)`;
+            const { width, height } = this.drawing.places[i] ?? { width: 0, height: 0 };
+            mark.classList.toggle('above', y > height - roomPixels[1] * pixelRatio());
+            mark.classList.toggle('left', x > width - roomPixels[0] * pixelRatio());
             mark.querySelector('span')!.textContent = pane && i !== except ? textOf(pane) : '';
         });
     }
