@@ -156,7 +156,8 @@ function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: nu
     return found('ground', ground, groundM, lowest?.state ?? null, lowest?.value);
 }
 
-// Returns what a pixel of a pane, usually of the active one, shows; null for the sky, or if nothing is shown. For a grid
+// Returns what a pixel of a pane, usually of the active one, shows; null for the sky, or if nothing is shown.
+// For a grid
 // in parts, asks for the cells along the ray if `asks` is true. Until these have come, leaves out the volume and the
 // surface.
 export function pick(drawing: Drawing, left: number, top: number, asks: boolean, pane = drawing.pane): Picked | null {

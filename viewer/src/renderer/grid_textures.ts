@@ -34,7 +34,8 @@ export class GridTextures {
     // Uploads grids, and releases the grids that were shown before.
     show(shown: readonly LoadedGrid[]): void {
         this.shown = shown;
-        // Keep the atlas of a grid in parts for the next grid in parts, because such atlases usually have the same size.
+        // Keep the atlas of a grid in parts for the next grid in parts, because such atlases usually have the
+        // same size.
         const pools: UploadedGrid[] = [];
         for (const [loaded, uploaded] of this.uploaded) {
             if (shown.includes(loaded)) continue;

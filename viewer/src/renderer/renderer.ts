@@ -68,7 +68,8 @@ export class Renderer {
     show(loaded: readonly LoadedGrid[]): void {
         this.grids.show(loaded);
     }
-    // Copies bricks into the atlas of a shown grid. `texels` has the bricks of the slots that are not -1, in their order.
+    // Copies bricks into the atlas of a shown grid. `texels` has the bricks of the slots that are not -1, in
+    // their order.
     putBricks(of: LoadedGrid, slots: Int32Array, texels: Uint8Array): void {
         this.grids.putBricks(of, slots, texels);
     }
@@ -90,7 +91,8 @@ export class Renderer {
         this.drawFrame(frame, this.passes[0]!);
     }
 
-    // Draws panes into a picture of a size. A pane without a frame stays empty. A coarse frame is enlarged to its place.
+    // Draws panes into a picture of a size. A pane without a frame stays empty. A coarse frame is enlarged to
+    // its place.
     drawPanes(width: number, height: number, panes: readonly { frame: Frame | null; place: PanePlace }[]): void {
         const { gl } = this;
         this.resize(width, height);

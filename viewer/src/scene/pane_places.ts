@@ -12,7 +12,8 @@ export interface PanePlace {
 
 const leastSide = 16;
 
-// Returns the places of the panes, with `gap` pixels between two panes. Two panes are side by side if the picture is wider than high, and otherwise
+// Returns the places of the panes, with `gap` pixels between two panes. Two panes are side by side if the
+// picture is wider than high, and otherwise
 // one above the other. Four panes are two rows of two.
 export function panePlaces(count: PaneCount, width: number, height: number, gap: number): PanePlace[] {
     const columns = count === 4 || (count === 2 && width >= height) ? 2 : 1;

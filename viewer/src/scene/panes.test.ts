@@ -57,8 +57,9 @@ test('fewer panes keep the active one, and more panes repeat it', () => {
 });
 
 test('the preset takes other moments for those that the domain lacks', () => {
-    assert.deepEqual(presetMoments(4, ['REF', 'VEL', 'SW', 'ZDR', 'PHI', 'RHO']), ['REF', 'VEL', 'ZDR', 'RHO']);
-    assert.deepEqual(presetMoments(4, ['SW', 'VEL', 'REF']), ['REF', 'VEL', 'SW', 'REF']);
+    const usual = ['REF', 'VEL', 'ZDR', 'RHO'];
+    assert.deepEqual(presetMoments(4, ['REF', 'VEL', 'SW', 'ZDR', 'PHI', 'RHO'], usual), ['REF', 'VEL', 'ZDR', 'RHO']);
+    assert.deepEqual(presetMoments(4, ['SW', 'VEL', 'REF'], usual), ['REF', 'VEL', 'SW', 'REF']);
     const panes = panesOfMoments({ ...one, least: 20 }, ['REF', 'VEL']);
     assert.deepEqual(
         panes.map(({ least }) => least),

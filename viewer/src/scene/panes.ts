@@ -44,10 +44,8 @@ export function paneList(view: Panes, count: PaneCount): PaneView[] {
     return Array.from({ length: count }, (_, i) => (i === 0 && !isActiveKept ? ownOf(view) : (all[i] ?? ownOf(view))));
 }
 
-const usualMoments = ['REF', 'VEL', 'ZDR', 'RHO'];
-
 // Returns the moments of a number of panes: the usual ones, and others of the domain in place of those that it lacks.
-export function presetMoments(count: PaneCount, inDomain: readonly string[]): string[] {
+export function presetMoments(count: PaneCount, inDomain: readonly string[], usualMoments: string[]): string[] {
     const others = momentsInOrder(inDomain.filter((one) => !usualMoments.includes(one)))
         .filter(({ isThere }) => isThere)
         .map(({ moment }) => moment);

@@ -90,7 +90,8 @@ export class Hover {
             .map((other) => this.valueIn(other, at))
             .filter(Boolean);
     }
-    // Returns the moment and the value of a pane at a pixel; an empty text if it shows neither echo nor clear air there.
+    // Returns the moment and the value of a pane at a pixel; an empty text if it shows neither echo nor clear
+    // air there.
     private valueIn(pane: Pane, at: [number, number]): string {
         const picked = pick(this.drawing, ...at, true, pane);
         if (!picked || picked.lacksCells || picked.state === null) return '';

@@ -21,7 +21,7 @@ function showCount(app: App, count: PaneCount): void {
 
 function showMoments(app: App): void {
     const inDomain = (app.domain?.moments ?? []).map(({ moment }) => moment);
-    const moments = presetMoments(4, inDomain);
+    const moments = presetMoments(4, inDomain, words.choices.moments.split(' '));
     app.usePanes(panesOfMoments(app.state, moments), Math.max(0, moments.indexOf(app.state.moment)));
 }
 
