@@ -101,6 +101,8 @@ class Intake final : public WatchListener {
     }
     // Returns the longest wait of the jobs that may run now, or 0 if there are none.
     [[nodiscard]] SteadyTime::duration longest_wait() const;
+    // Returns how long the live file waited whose job began last.
+    [[nodiscard]] SteadyTime::duration last_wait() const { return schedule_.last_wait(); }
     // Returns how often the kernel dropped events since the last call.
     std::uint64_t take_overflows() { return std::exchange(overflows_, 0); }
     // Returns how often an entry could not be examined since the last call.

@@ -171,6 +171,7 @@ std::optional<Job> Schedule::next(SteadyTime now) {
     }
     run(*entry);
     entry->has_worker = true;
+    if (entry->job.urgency == Urgency::live) last_wait_ = now - entry->offered_at;
     shares_.begun(entry->job.station, now);
     return entry->job;
 }

@@ -110,6 +110,8 @@ class Schedule {
     // Returns when the job that has waited longest began to wait, among the waiting jobs that may
     // run now; none if there is no such job.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
+    // Returns how long the live job waited that next() returned last.
+    [[nodiscard]] SteadyTime::duration last_wait() const { return last_wait_; }
     [[nodiscard]] std::size_t waiting_count() const {
         return ready_.count() + delayed_.size() - retrying_;
     }
@@ -165,6 +167,7 @@ class Schedule {
     std::unordered_map<std::string, std::set<Worth>> claims_;
     std::size_t retrying_ = 0;
     WorkShares shares_;
+    SteadyTime::duration last_wait_{};
     // No ready job may begin before this time, unless the queue changes.
     SteadyTime shares_looked_at_{};
     std::vector<std::filesystem::path> displaced_;

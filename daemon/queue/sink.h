@@ -66,9 +66,8 @@ class Sink : public Interface {
     virtual Result<pipeline::Noted> note(const std::filesystem::path& /*path*/) {
         return pipeline::Noted::stands;
     }
-    // Call it with true while more files wait than the workers can soon ingest. Optional work is
-    // then left out.
-    virtual void set_pressed(bool /*pressed*/) {}
+    // Says how much work waits. Optional work is left out accordingly.
+    virtual void set_load(pipeline::Load /*load*/) {}
     // Long functions call this now and then, from their own thread, to show that they make
     // progress.
     using OnStep = std::function<void()>;

@@ -70,7 +70,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.count = growing_;
     // This is much less than the time after which the watchdog assumes that a step hangs.
     options.archive_turn = std::chrono::seconds{20};
-    options.living.has_time = [pressed = pressed_] { return !*pressed; };
+    options.living.load = [load = load_] { return load->load(); };
     return options;
 }
 

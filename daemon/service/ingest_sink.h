@@ -30,7 +30,7 @@ class IngestSink final : public Sink {
     Result<pipeline::Noted> note(const std::filesystem::path& path) override {
         return ingestor_.note(path);
     }
-    void set_pressed(bool pressed) override { *pressed_ = pressed; }
+    void set_load(pipeline::Load load) override { *load_ = load; }
     Result<int> mark_missing(const OnStep& step) override {
         return catalog_.mark_missing(drop_, step);
     }
@@ -69,7 +69,8 @@ class IngestSink final : public Sink {
     std::size_t growing_;  // descriptors for growing volumes (descriptor_plan.h)
     catalog::LeftAlone left_alone_;
     std::shared_ptr<pipeline::PartialSources> partial_sources_;
-    std::shared_ptr<std::atomic<bool>> pressed_ = std::make_shared<std::atomic<bool>>(false);
+    std::shared_ptr<std::atomic<pipeline::Load>> load_ =
+        std::make_shared<std::atomic<pipeline::Load>>(pipeline::Load::light);
     catalog::CatalogWriter catalog_;
     cache::RollingStore store_;
     pipeline::Ingestor ingestor_;

@@ -22,6 +22,9 @@ constexpr std::chrono::milliseconds between_memory_looks{250};
 // Time between searches for a missing drop directory.
 constexpr std::chrono::seconds between_drop_looks{1};
 
+// If the live file whose job began last waited longer than this, ended volumes are late.
+constexpr std::chrono::milliseconds most_live_wait{100};
+
 // Returns how many bytes of free memory the process keeps for reuse; it gives further free memory
 // back to the system. Decoding and gridding volumes one after another leaves less free memory than
 // this. With less than that, a tenth of the time goes into new pages for each volume.
@@ -147,9 +150,14 @@ void Service::turn() {
     get_ready();
     keep_workers_busy();
     keep_house();
-    const std::size_t waiting = intake_.pending().waiting;
-    idle_ = waiting == 0;
-    parts_.sink.set_pressed(waiting > static_cast<std::size_t>(config_.worker_count()));
+    idle_ = intake_.pending().waiting == 0;
+    parts_.sink.set_load(load());
+}
+
+pipeline::Load Service::load() const {
+    if (intake_.pending().waiting <= static_cast<std::size_t>(config_.worker_count()))
+        return pipeline::Load::light;
+    return intake_.last_wait() > most_live_wait ? pipeline::Load::late : pipeline::Load::heavy;
 }
 
 SteadyTime Service::next_time() const {

@@ -111,6 +111,7 @@ class Service {
     void scan();
     void note_unreadable();
     void keep_workers_busy();
+    [[nodiscard]] pipeline::Load load() const;
     void get_ready();
     void start_jobs();
     void keep_house();

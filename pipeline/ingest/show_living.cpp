@@ -7,6 +7,14 @@
 #include "pipeline/keep/keep_rule.h"
 
 namespace stormcellar::pipeline {
+namespace {
+
+bool may_show(const LivingGrids& living, const UnshownSweeps& news) {
+    const Load load = living.load ? living.load() : Load::light;
+    return load == Load::light || (load == Load::heavy && news.low);
+}
+
+}  // namespace
 
 Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, UnshownSweeps news,
                          const std::string& file, IngestOutcome& outcome) {
@@ -16,9 +24,8 @@ Result<bool> show_living(IngestContext& context, const ShelvedVolume& kept, Unsh
     if (!kept.facts.header) return false;
     const std::string station = context.taken_station(kept.facts.station);
     if (!context.living || !options.own_grids || station.empty()) return false;
-    // If there is no time now, the next sweep or the end of the volume will show these sweeps. Low
-    // sweeps are always shown, because users look at them first.
-    if (!news.low && options.living.has_time && !options.living.has_time()) {
+    // If there is no time now, the next sweep or the end of the volume will show these sweeps.
+    if (!may_show(options.living, news)) {
         outcome.living_left_out = true;
         return false;
     }

@@ -48,6 +48,13 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
     return (16 + 28 * moments) << 20;
 }
 
+// How much other work waits, which decides what living grids show at once.
+enum class Load : std::uint8_t {
+    light,  // living grids show every new sweep
+    heavy,  // only low sweeps, because users look at them first
+    late,   // none: volumes that have ended wait too long for their grids
+};
+
 // Options for gridding volumes while they grow. The living grid of a growing volume shows the
 // sweeps that are complete, and sweeps of the site's last volume in place of the others.
 struct LivingGrids {
@@ -55,9 +62,9 @@ struct LivingGrids {
     // and a volume is finished with the chunks that exist.
     std::filesystem::path scratch;
     bool make = true;  // false: no living grids, but chunks are still joined
-    // Called before living grids are made, unless there is a new low sweep. Returns false if there
-    // is more urgent work; the next living grid then shows the sweeps. Empty: there is always time.
-    std::function<bool()> has_time;
+    // Called before living grids are made. Sweeps that are left out are shown by the next living
+    // grid. Empty: the load is always light.
+    std::function<Load()> load;
     // Times of waiting for the chunks of a volume (stormcellar/level2/live_volume.h).
     std::chrono::seconds chunk_timeout{600};
     std::chrono::seconds chunk_grace{30};

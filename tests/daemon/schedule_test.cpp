@@ -394,5 +394,17 @@ TEST(Schedule, SaysSinceWhenTheFirstWaits) {
     EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{9}) << "the wait begins with the second offer";
 }
 
+TEST(Schedule, SaysHowLongTheLastLiveJobWaited) {
+    Schedule schedule(10);
+    Job live = job("live", 1);
+    live.urgency = Urgency::live;
+    schedule.offer(job("old", 1), t0);
+    schedule.offer(live, t0 + seconds{4});
+    EXPECT_EQ(next_path(schedule, t0 + seconds{7}), "live");
+    EXPECT_EQ(schedule.last_wait(), seconds{3});
+    EXPECT_EQ(next_path(schedule, t0 + seconds{9}), "old");
+    EXPECT_EQ(schedule.last_wait(), seconds{3}) << "the backlog may wait";
+}
+
 }  // namespace
 }  // namespace stormcellar::daemon

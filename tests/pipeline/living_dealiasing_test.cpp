@@ -161,9 +161,9 @@ TEST_F(Living, TheFinalGridsOfVelocitiesDoNotDependOnTheGrowth) {
 
 // A living grid is the same whether its sweeps were dealiased when they came or together later.
 TEST_F(Living, DealiasedSweepsDoNotDependOnWhenTheyAreShown) {
-    bool has_time = false;
+    Load load = Load::heavy;
     House prompt(directory_ / "prompt", true, {}, {Moment::veld});
-    House hurried(directory_ / "hurried", true, [&] { return has_time; }, {Moment::veld});
+    House hurried(directory_ / "hurried", true, [&] { return load; }, {Moment::veld});
     const std::vector<std::byte> bytes = real_bytes(rain);
     constexpr std::size_t pieces = 30;
     const fs::path often = directory_ / "often" / rain_name;
@@ -173,7 +173,7 @@ TEST_F(Living, DealiasedSweepsDoNotDependOnWhenTheyAreShown) {
     const int at_once = dealiased_in(grow(prompt, often, bytes, pieces));
     const int low_ones = dealiased_in(grow(hurried, seldom, bytes, pieces));
     ASSERT_LT(low_ones, at_once);
-    has_time = true;
+    load = Load::light;
     append_to(seldom, std::span{bytes}.subspan(fs::file_size(seldom), 1000));
     const auto later_ones = hurried.ingestor->ingest(seldom, false);
     ASSERT_TRUE(later_ones);

@@ -59,7 +59,7 @@ inline level2::Volume later(level2::Volume volume, std::chrono::milliseconds by)
 }
 
 struct House {
-    explicit House(const fs::path& where, bool living, std::function<bool()> has_time = {},
+    explicit House(const fs::path& where, bool living, std::function<Load()> load = {},
                    std::vector<level2::Moment> moments = {level2::Moment::ref},
                    double quality = 0) {
         catalog.emplace(*catalog::CatalogWriter::open(where / "catalog"));
@@ -69,7 +69,7 @@ struct House {
         options.derived.quality = quality;
         if (living) {
             options.living.scratch = where;
-            options.living.has_time = std::move(has_time);
+            options.living.load = std::move(load);
             options.living.chunk_grace = std::chrono::seconds{0};
         }
         ingestor.emplace(*catalog, *store, options);

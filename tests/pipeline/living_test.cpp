@@ -97,7 +97,7 @@ TEST_F(Living, SeveralMomentsAreThoseOfOneEach) {
     for (const Moment moment : moments) {
         alone.push_back(
             std::make_unique<House>(directory_ / std::string(level2::moment_name(moment)), true,
-                                    std::function<bool()>{}, std::vector{moment}));
+                                    std::function<Load()>{}, std::vector{moment}));
     }
     const std::vector<std::byte> first = real_bytes(busy);
     const auto encoded =
@@ -210,8 +210,8 @@ TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
 }
 
 TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
-    bool has_time = false;
-    House house(directory_ / "hurried", true, [&] { return has_time; });
+    Load load = Load::heavy;
+    House house(directory_ / "hurried", true, [&] { return load; });
     const std::vector<std::byte> bytes = real_bytes(busy);
     const fs::path path = directory_ / "KLOT20220317_000842_V06";
     const auto outcomes = grow(house, path, bytes, 40);
@@ -223,13 +223,27 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
     ASSERT_TRUE(outcomes.back().living_left_out) << "a high last sweep is left out without time";
     EXPECT_TRUE(outcomes.back().living.empty());
-    has_time = true;
+    load = Load::light;
     append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));
     const auto outcome = house.ingestor->ingest(path, false);
     ASSERT_TRUE(outcome);
     EXPECT_EQ(outcome->living.size(), 1U);
     EXPECT_FALSE(outcome->living_left_out);
     EXPECT_EQ(house.grids("KLOT").size(), 1U);
+}
+
+TEST_F(Living, NoSweepIsShownWhileVolumesAreLate) {
+    Load load = Load::late;
+    House house(directory_ / "late", true, [&] { return load; });
+    const std::vector<std::byte> bytes = real_bytes(busy);
+    const fs::path path = directory_ / "KLOT20220317_000842_V06";
+    for (const IngestOutcome& outcome : grow(house, path, bytes, 10))
+        EXPECT_TRUE(outcome.living.empty());
+    load = Load::heavy;
+    append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));
+    const auto outcome = house.ingestor->ingest(path, false);
+    ASSERT_TRUE(outcome);
+    EXPECT_EQ(outcome->living.size(), 1U) << "a low sweep of before is still to be shown";
 }
 
 TEST_F(Living, AFileThatIsRewrittenMeanwhileIsReadAsItIs) {
