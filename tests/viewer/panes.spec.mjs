@@ -68,7 +68,7 @@ const singles = {
 for (const [mode, { view, panes }] of Object.entries(singles))
   test(`four panes equal four single pages in ${mode}`, async ({ viewer, begin }) => {
     const others = panes.slice(1).map((text) => `pane=${text.replace('moment=', '').replaceAll('&', ';')}`);
-    await viewer.open(`${begin}&${view}&${panes[0]}&${others.join('&')}&active=2`);
+    await viewer.open(`${begin}&${view}&${panes[0]}&${others.join('&')}`);
     const drawn = await panesOf(viewer);
     expect(drawn.places).toHaveLength(4);
     const size = drawn.places[0];
