@@ -285,8 +285,8 @@ export async function overlayShapes(name: string): Promise<{ left_out?: string[]
     const answer = await ask(`overlays/${encodeURIComponent(name)}.geojson`, { cache: 'no-cache' });
     return (await answer.json()) as { left_out?: string[] };
 }
-// Returns the address of a picture that the server draws of a stored grid, and a function that fetches it. `options` are
-// of `stormcellar frame`, with their values: ['--opacity', '2'].
+// Returns the address of a picture that the server draws of a stored grid, and a function that fetches the picture.
+// `options` are options of `stormcellar frame` with their values: ['--opacity', '2'].
 export function stillPicture(
     domain: string,
     moment: string,
