@@ -124,7 +124,8 @@ Status AtomicDirectory::commit() {
     }
     temporary_path_.clear();
     Status synced = file_system_->sync_directory(directory_around(final_path_));
-    // Remove the old directory only now, so that a power cut leaves one of the two.
+    // Remove the old directory only now, so that a power cut leaves either the old or the new
+    // directory.
     std::error_code ignored;
     if (*replaces) fs::remove_all(old, ignored);
     return synced;

@@ -1,15 +1,14 @@
 // base/atomic_directory.h -- a directory that gets its final name only when it is whole.
 //
-// The writer fills a temporary directory beside the final one. commit() renames it. An older
-// directory of this name is moved aside first, moved back if the new one cannot take its place, and
-// removed at the end. Without commit(), the destructor removes the temporary directory with all its
-// files.
+// The writer fills a temporary directory beside the final place, and commit() renames this
+// directory. If an older directory has the final name, commit() first moves the older directory
+// aside, moves it back if the new directory cannot be renamed, and removes it at the end. Without
+// commit(), the destructor removes the temporary directory with all its files.
 //
 // Threads   One thread at a time.
 // Errors    not_found, permission, no_space and io from the file system; not_a_file if the final
-// name
-//           belongs to something other than a directory; those of `may_replace`. Messages do not
-//           name the final path.
+//           name belongs to something other than a directory; the errors of `may_replace`. Messages
+//           do not name the final path.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +41,8 @@ class AtomicDirectory {
 
     // Writes and syncs a file. `name` may have directories, which are made.
     Status write(const std::filesystem::path& name, std::span<const std::byte> bytes);
-    // Syncs the directories, gives the outermost its final name, and syncs the directory around it.
+    // Syncs the directories, gives the outermost directory its final name, and syncs the directory
+    // around it.
     Status commit();
 
   private:

@@ -11,8 +11,8 @@
 // Threads   Functions without state, which read files.
 // Errors    not_found if nothing is at the path, if the path is outside the root, or if a directory
 //           of the path is a link or not a directory; not_a_file if the file is not regular (the
-//           message says what it is); unsupported if it has more than `limit` bytes; permission,
-//           io. Messages begin with the path.
+//           message says what it is); unsupported if the file has more than `limit` bytes;
+//           permission, io. Messages begin with the path.
 #pragma once
 
 #include <cstddef>

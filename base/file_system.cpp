@@ -102,7 +102,8 @@ Result<std::filesystem::path> file_behind(const std::filesystem::path& path) {
     return target;
 }
 
-// Adds the path to the error of an operation on a descriptor, which does not know it.
+// Adds the path to the error of an operation on a descriptor, because a descriptor does not know
+// its path.
 Status name_failure(Status status, const std::filesystem::path& path) {
     if (!status)
         status.error().message = fmt::format("{}: {}", path.native(), status.error().message);

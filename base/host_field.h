@@ -16,9 +16,9 @@ namespace stormcellar {
 // cannot take the name of a loopback address.
 //
 // A web page may give its own host name the address 127.0.0.1 (DNS rebinding). A browser then lets
-// the page read the answers of a server on this machine. But it sends the page's host name as Host,
-// so a server that answers only requests for the names of loopback addresses tells such a page
-// nothing.
+// the page read the answers of a server on this machine. But the browser sends the page's host name
+// as Host, so a server that answers only requests for the names of loopback addresses tells such a
+// page nothing.
 [[nodiscard]] bool is_loopback_host(std::string_view host) noexcept;
 
 }  // namespace stormcellar

@@ -1,7 +1,7 @@
 // base/local_time.h -- converts UTC to local time.
 //
 // The names of zones, such as "America/Chicago", are those of the system's IANA database (package
-// tzdata). The conversion uses the rules of the zone at that time.
+// tzdata). The conversion uses the rules that the zone has at the converted time.
 //
 // Threads   Any thread may call. TZ and the machine's zone are read and never set.
 #pragma once

@@ -9,7 +9,7 @@
 namespace stormcellar {
 
 // Lets malloc keep freed memory for later use, up to 128 MiB at the end of each of its arenas.
-// Otherwise glibc returns the arrays of each volume to the system and gets new ones for the next
+// Otherwise glibc returns the arrays of each volume to the system and gets new arrays for the next
 // volume page by page, which takes up to a tenth of the time of decoding (docs/decisions.md). Call
 // it in main() of a program that decodes one volume after another, not in a library. Does nothing
 // with another C library.
@@ -21,8 +21,8 @@ void keep_freed_memory();
 void hold_arenas(int most);
 
 // Gives all freed memory back to the system if more than `most_kept_bytes` of it are resident.
-// Returns true if some was given back. Call it in a program that runs for long, because malloc
-// otherwise keeps the memory of many small objects. Does nothing with another C library.
+// Returns true if some memory was given back. Call it in a program that runs for long, because
+// malloc otherwise keeps the memory of many small objects. Does nothing with another C library.
 bool give_back_freed_memory(std::size_t most_kept_bytes);
 
 // Frees the memory of an array, unlike `values = {}`, which only empties it.

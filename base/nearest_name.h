@@ -16,9 +16,9 @@ namespace stormcellar {
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 // Returns the name with the least edit_distance() from the word, ignoring case, and the first such
-// name if there are several. A name counts only if its distance is at most 1 or at most a third of
-// its length, and less than its length, in bytes. Returns none if no name counts, or if the word
-// has more than 80 bytes.
+// name if there are several. A name counts only if its distance is less than its length in bytes,
+// and is at most 1 or at most a third of this length. Returns none if no name counts, or if the
+// word has more than 80 bytes.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view word,
                                                       std::span<const std::string> names);
 

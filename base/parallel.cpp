@@ -28,7 +28,7 @@ void for_each_piece(int count, int threads, const std::function<void(int)>& work
             for (int i = 1; i < std::min(threads, count); ++i)
                 others.emplace_back(run);
         } catch (const std::system_error&) {
-            // The system has no more threads, so those that exist do the work.
+            // The system has no more threads, so the existing threads do the work.
         } catch (const std::bad_alloc&) {
             // The existing threads do the work in this case, too.
         }

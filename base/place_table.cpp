@@ -28,7 +28,7 @@ extern const char stormcellar_places_end[];
 namespace stormcellar {
 namespace {
 
-// Removes and returns the text up to the separator, or all of it.
+// Removes and returns the text up to the separator, or the whole text if it has no separator.
 std::string_view take(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view taken = text.substr(0, end);

@@ -22,11 +22,11 @@ struct CodePoints {
     char32_t first, last;
 };
 
-// The characters that printable() escapes: control characters; the characters that Unicode ignores
-// by default, because no glyph shows them (DerivedCoreProperties.txt 15.0,
-// Default_Ignorable_Code_Point), which include every control of direction, zero-width characters,
-// variation selectors and tags; the separators of lines and paragraphs; and the marks of
-// interlinear annotation.
+// The characters that printable() escapes: control characters; the separators of lines and
+// paragraphs; the marks of interlinear annotation; and the characters that Unicode ignores by
+// default, because no glyph shows them (DerivedCoreProperties.txt 15.0,
+// Default_Ignorable_Code_Point). The ignored characters include every control of direction,
+// zero-width characters, variation selectors and tags.
 constexpr std::array<CodePoints, 20> unseen = {{
     {0x0000, 0x001F}, {0x007F, 0x009F}, {0x00AD, 0x00AD},   {0x034F, 0x034F},   {0x061C, 0x061C},
     {0x115F, 0x1160}, {0x17B4, 0x17B5}, {0x180B, 0x180F},   {0x200B, 0x200F},   {0x2028, 0x2029},

@@ -16,7 +16,7 @@ namespace stormcellar {
 class RateLimit {
   public:
     RateLimit(int most, std::chrono::seconds period) : most_(most), period_(period) {}
-    // Returns true if a line may be logged now; otherwise it counts as held back.
+    // Returns true if a line may be logged now; otherwise the line counts as held back.
     bool allow(SteadyTime now);
     // Returns how many lines were held back in the period, if the period is over. Returns none
     // during the period, if no lines were held back, or if their number was returned before.

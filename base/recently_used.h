@@ -1,11 +1,11 @@
 // base/recently_used.h -- keeps values by key within a budget, and drops the least recently used
-// ones first.
+// values first.
 //
 // A search takes logarithmic time if keys have an order; otherwise it compares one key after
 // another.
 //
 // Units     A value has a weight, for example its bytes; by default, 1.
-// Threads   One thread at a time: the mutex of the owner guards it.
+// Threads   One thread at a time: the mutex of the owner guards the object.
 #pragma once
 
 #include <concepts>
@@ -29,7 +29,7 @@ class RecentlyUsed {
   public:
     explicit RecentlyUsed(KeptBudget budget) : budget_(budget) {}
 
-    // Returns the value, which becomes the most recently used one; null if it is not kept.
+    // Returns the value, which becomes the most recently used value; null if it is not kept.
     [[nodiscard]] Value* find(const Key& key) {
         const auto entry = place_of(key);
         if (entry == entries_.end()) return nullptr;

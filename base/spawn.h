@@ -21,7 +21,8 @@ struct SpawnOptions {
     // The descriptors that become the program's input, output and errors; negative: /dev/null.
     int in = -1, out = -1, err = -1;
     // If true, the new program has its own process group and default handling of signals, so that
-    // Ctrl-C in a terminal does not reach it. If false, the program inherits both.
+    // Ctrl-C in a terminal does not reach it. If false, the program inherits its group and its
+    // handling of signals.
     bool is_apart = true;
 };
 

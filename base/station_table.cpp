@@ -180,8 +180,8 @@ constexpr auto stations = std::to_array<Station>({
     {"PHMO", "Molokai", "HI", RadarKind::nexrad, 21.13278, -157.18027, 440.1},
     {"PHWA", "South Hawaii", "HI", RadarKind::nexrad, 19.09500, -155.56888, 445.3},
     {"RKJK", "Kunsan AB", "South Korea", RadarKind::nexrad, 35.92417, 126.62222, 58.5},
-    // The radar has been on this hilltop since about 2007. Before, it was 36 km away, at 36.9597
-    // 127.0183.
+    // The radar has been on this hilltop since about 2007. Before, the radar was 36 km away, at
+    // 36.9597 127.0183.
     {"RKSG", "Camp Humphreys", "South Korea", RadarKind::nexrad, 37.20757, 127.28556, 463.6},
     // Sources differ by 0.9 km.
     {"RODN", "Kadena AB", "Japan", RadarKind::nexrad, 26.30780, 127.90347, 125.6},
@@ -261,14 +261,14 @@ std::string_view without_number_of_ncei(std::string_view name) {
     return name;
 }
 
-// Returns the known station with whose name a text begins, or an empty text.
+// Returns the name of the known station at the start of a text, or an empty text.
 std::string known_at_start(std::string_view text) {
     const auto icao = icao_of(text.substr(0, icao_letters));
     return icao && find_station(*icao) ? *icao : std::string{};
 }
 
-// Returns the known station whose name is the word, or begins the word before a digit; or an empty
-// text.
+// Returns the name of a known station if the word is this name, or is this name and then a digit.
+// Otherwise returns an empty text.
 std::string known_in_word(std::string_view word) {
     word = without_number_of_ncei(word);
     const bool goes_on = word.size() > icao_letters;

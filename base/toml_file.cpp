@@ -122,7 +122,8 @@ struct TomlFile::Document {
     [[nodiscard]] const Complaint& first_complaint() const {
         const Complaint& first = complaints.begin()->second;
         if (first.about != About::absent_key) return first;
-        // If the whole section is missing, it or its keys may be in the root.
+        // If the whole section is missing, the root may have the section under a misspelled name,
+        // or keys of the section.
         const bool lacks_section = complaints.begin()->first == 0 && first.index != 0;
         for (const auto& [line, other] : complaints) {
             const bool in_root = lacks_section && other.index == 0;
