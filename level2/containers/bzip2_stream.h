@@ -40,13 +40,13 @@ class BzipBlocks {
         std::span<const std::byte> data;                // valid until the next call
         std::size_t position = 0;                       // of the first byte of the block in `bytes`
         std::size_t compressed_bytes = 0;
-        // The sum of waste_of() over the failed tries for this block. Failed tries count as output,
-        // because unpacking took time. They count half, because a damaged block costs several
-        // tries.
+        // The sum of waste_of() over the failed tries for this block, which counts as output.
         std::uint64_t wasted_bytes = 0;
     };
     static constexpr std::uint64_t least_try_bytes = std::uint64_t{256} << 10;
-    // Returns the bytes that a failed try counts if it unpacked this many bytes.
+    // Returns the bytes of output that count for a failed try that unpacked this many bytes. A try
+    // counts because unpacking took time, but only half, because a damaged block costs several
+    // tries.
     [[nodiscard]] static std::uint64_t waste_of(std::uint64_t unpacked_bytes) {
         return std::max(unpacked_bytes, least_try_bytes) / 2;
     }

@@ -23,7 +23,7 @@ bool messages_at_start(std::span<const std::byte> bytes, bool after_header) {
     if (is_surely_message(bytes)) return true;
     const bool first = plausible_at(bytes, 0);
     if (after_header && first) return true;
-    // Neither two plausible headers one frame apart nor one sure message can be chance.
+    // Two plausible headers one frame apart cannot be chance, and neither can one sure message.
     if (bytes.size() < frame_bytes) return false;
     return is_surely_message(bytes.subspan(frame_bytes)) ||
            (first && plausible_at(bytes, frame_bytes));
@@ -35,8 +35,8 @@ bool begins_with(std::span<const std::byte> bytes, Values... values) {
     return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
-// Recognizes PNG, HDF5 and grid files by their line ends after 89h and three letters, and xz and
-// zstd by their first bytes. Anything inside such a file that looks like a message or a record is
+// Returns true for PNG, HDF5 and grid files, which begin with 89h, three letters and line ends, and
+// for xz and zstd. If something inside such a file looks like a message or a record, that is
 // chance.
 bool is_of_another_format(std::span<const std::byte> bytes) {
     if (begins_with(bytes, 0xFD, 0x37, 0x7A, 0x58, 0x5A, 0x00)) return true;

@@ -18,8 +18,8 @@ enum class Content : std::uint8_t {
     unknown
 };
 
-// Judges the content by its start alone. Also returns `messages` if the first frame is no message
-// but surely a message follows it.
+// Judges the content by its start alone. Also returns `messages` if the first frame is not a
+// message but a message surely follows it.
 [[nodiscard]] Content content_at_start(std::span<const std::byte> bytes);
 
 // Returns content_at_start(). If that is `unknown`, searches all bytes for an LDM record or a

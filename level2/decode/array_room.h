@@ -1,9 +1,9 @@
 // level2/decode/array_room.h -- counts the memory of arrays before they are made, and enforces a
 // limit.
 //
-// A moment of a sweep may come in several kinds, which differ in gates, scale or word size. For
-// each kind, a sweep takes some fixed bytes, and one row for each radial, as long as the longest
-// row of the kind. The radials of a sweep may come in several pieces
+// A moment of a sweep may come in several kinds, which differ in gates, scale or word size. Each
+// kind takes some fixed bytes, and one row for each radial of the sweep. All rows of a kind are as
+// long as its longest row. The radials of a sweep may come in several pieces
 // (level2/decode/fragment_builder.h). A piece that may continue a sweep does not count the fixed
 // bytes again, so the count does not depend on how a volume is cut into fragments.
 //

@@ -195,7 +195,7 @@ Status Decoder::take_all(Stream& stream, LayerOutput& output) {
     }
 }
 
-// Reports a damaged container, whose messages are wrong or missing from the reader's place on.
+// Reports a damaged container. From the reader's position on, its messages are wrong or missing.
 void Decoder::report_container(const LayerOutput& output, Severity severity, std::string_view code,
                                std::string message, std::uint64_t position) {
     DecodeReport& report = builder_.report_data();
@@ -252,8 +252,8 @@ void Decoder::report_gzip_end(const GzipStream& gzip, const LayerOutput& output)
     }
 }
 
-// Reads a file that bzip2 compressed as a whole block by block, because each block has its own
-// checksum. After a damaged block, the reader must search for the next message.
+// Reads, block by block, a file that bzip2 compressed as a whole. Each block has its own checksum.
+// After a damaged block, the reader must search for the next message.
 Status Decoder::read_bzip2(std::span<const std::byte> bytes, int depth) {
     bunzip::Workspace workspace;
     BzipBlocks blocks{bytes, workspace};

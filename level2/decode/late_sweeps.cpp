@@ -13,8 +13,8 @@
 namespace stormcellar::level2 {
 namespace {
 
-// Limits the bytes moved, and the sweeps searched for one radial, to what the worst order of a real
-// volume needs, because a hostile file must not take much time.
+// Limits for the bytes moved, and for the sweeps searched for one radial. The worst order of a real
+// volume stays within them; a hostile file must not take more time.
 constexpr std::uint64_t most_late_bytes = std::uint64_t{4} << 30;
 constexpr std::size_t most_candidates = 8;
 
@@ -108,7 +108,7 @@ Result<bool> VolumeBuilder::find_late_place(const Sweep& from, std::size_t radia
 }
 
 // Takes late radials as long as each fills a gap or repeats a present radial. Returns the index of
-// the first radial that does neither.
+// the first radial that neither fills a gap nor repeats a radial.
 Result<std::size_t> VolumeBuilder::take_late(Sweep& from, std::size_t first) {
     const std::size_t count = from.radials.size();
     std::size_t at = first;

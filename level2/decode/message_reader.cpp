@@ -60,8 +60,8 @@ std::size_t longest(int type) {
 
 }  // namespace
 
-// Reads message by message. A message never crosses the end of a block, so open damage ends there,
-// and the next block begins with a message.
+// Reads message by message. A message never crosses the end of a block. So damage ends with the
+// block, and the next block begins with a message.
 std::size_t MessageReader::read(std::span<const std::byte> data, bool last) {
     std::size_t at = 0;
     while (at < data.size() && !full()) {

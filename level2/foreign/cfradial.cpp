@@ -230,7 +230,7 @@ void GroupReader::set_radials(Sweep& sweep, std::size_t first_ray) const {
         if (array == nullptr) continue;
         const std::vector<double> all = values_.numbers(*array);
         for (std::size_t i = 0; i < sweep.radials.size(); ++i) {
-            // A single number is that of all rays.
+            // A single number applies to all rays.
             const std::size_t at = all.size() == 1 ? 0 : first_ray + i;
             const bool is_known = at < all.size() && std::isfinite(all[at]) && all[at] > -9000;
             if (is_known && all[at] < 1e6) fact.set(sweep.radials[i], all[at]);

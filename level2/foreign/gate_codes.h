@@ -6,9 +6,9 @@
 // unit (RHO: 0.0001), so they move by at most half a step.
 //
 // A Volume has no code for a gate that was not measured. Such gates at the end of a radial are cut
-// off; those at the start of all radials move the first gate; any other becomes range folded, which
-// also means that the value is unknown. If the length of gates is no whole number of meters, gates
-// of the nearest whole length take the values of the nearest gates of the file.
+// off; those at the start of all radials move the first gate; any other such gate becomes range
+// folded, which also means that the value is unknown. If the length of gates is no whole number of
+// meters, gates of the nearest whole length take the values of the nearest gates of the file.
 //
 // Threads   Pure functions.
 #pragma once

@@ -234,7 +234,7 @@ std::optional<NamedSource> source_of(const Group& data, const Place& place, Pola
     return made;
 }
 
-// Returns the quantities of a sweep: of those for one moment, the best.
+// Returns the quantities of a sweep. If several are for one moment, returns only the best.
 std::vector<NamedSource> sources_of(const Group& root, const Group& dataset, PolarFile& file) {
     std::vector<NamedSource> best;
     for (const Group* data : numbered(dataset, "data")) {

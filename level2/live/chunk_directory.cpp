@@ -54,8 +54,8 @@ Result<std::vector<ChunkSet>> chunk_sets(const fs::path& directory) {
             error == std::errc::permission_denied ? ErrorCode::permission : ErrorCode::not_found,
             "{}: {}", directory.string(), error.message());
     }
-    // The chunks of each volume, sorted by time and number. Of two chunks with one number,
-    // LiveVolume keeps the better.
+    // The chunks of each volume, sorted by time and number. If two chunks have the same number,
+    // LiveVolume keeps the better chunk.
     std::map<std::pair<std::string, std::string>, std::multimap<int, fs::path>> found;
     for (; entry != fs::directory_iterator{}; entry.increment(error)) {
         std::error_code ignored;

@@ -204,8 +204,8 @@ bool is_surely_other_message(const MessageHeader& header, std::span<const std::b
 }
 
 // Recognizes a frame of a clutter map or adaptation data without a date, as some radars sent them
-// in 2006. Its header is zero except for size, type, sequence and segments; the header of a radial
-// never is.
+// in 2006. The header of such a frame is zero except for size, type, sequence and segments. The
+// header of a radial always has a date.
 bool is_undated_frame(const MessageHeader& header, std::span<const std::byte> bytes) {
     const bool mapped = header.type == 13 || header.type == 15 || header.type == 18;
     return mapped && header.date == 0 && header.ms == 0 && header.segments >= 2 &&
