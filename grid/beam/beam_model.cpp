@@ -169,9 +169,9 @@ void raise(BeamDifference& greatest, const BeamDifference& by, double if_missing
     greatest.gate_m = greater(greatest.gate_m, by.gate_m);
 }
 
-// Raises `greatest` to the differences at every step up to the limit, and at one step beyond. A
-// sample counts if it or one of its neighbors is within the limits. So the samples that count
-// enclose everything within the limits.
+// Raises `greatest` to the differences at every step up to the limit, and at one step beyond the
+// limit. A sample counts if it or one of its neighbors is within the limits. So the samples that
+// count enclose everything within the limits.
 template <class SampleAt>
 void raise_along(BeamDifference& greatest, double limit_m, SampleAt sample_at) {
     constexpr double infinity = std::numeric_limits<double>::infinity();

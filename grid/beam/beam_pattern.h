@@ -1,13 +1,13 @@
 // grid/beam/beam_pattern.h -- computes how much a gate counts for a point off the axis of its beam.
 //
-// The weight follows the one-way power pattern of the antenna, a Gaussian of the half-power width,
-// which is 1/2 at half a width off the axis. The pattern is shifted and scaled, so that the weight
-// is 1 on the axis and 0 from `reach` on:
+// The weight follows the one-way power pattern of the antenna. The pattern is a Gaussian, which is
+// 1/2 at half of the half-power width off the axis. The pattern is shifted and scaled, so that the
+// weight is 1 on the axis and 0 from `reach` on:
 //   weight(x) = (G(x) - G(reach)) / (1 - G(reach)),   G(x) = exp(-4 ln 2 (x / width)^2)
 // Here width = reach = the larger of the beam width and the distance between neighboring radials or
 // sweeps. So a point between two neighboring radials or sweeps gets weight from both. A point on
-// the axis of one gets weight from this one alone, unless its neighbors are nearer than the beam
-// width.
+// the axis of a radial or sweep gets weight from this radial or sweep alone, unless the neighbors
+// are nearer than the beam width.
 //
 // Source    Probert-Jones (1962), who treats the main lobe as a Gaussian.
 // Accuracy  1e-6 (tests/grid/sweep_mixture_test.cpp).

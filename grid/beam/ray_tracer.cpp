@@ -97,8 +97,8 @@ double Tracer::suitable_length_m(const State& state) const {
 }
 
 // Returns the length of a step from `state` at which value(state, rate) is zero. The value must be
-// monotonic, with one zero up to length_m. Newton's method starts from guess_m. If it leaves the
-// bracket around the zero, the bracket is halved instead.
+// monotonic, with one zero up to length_m. Newton's method starts from guess_m. If the method
+// leaves the bracket around the zero, the bracket is halved instead.
 template <class Value>
 double Tracer::where_zero(const State& state, double length_m, double guess_m, bool rising,
                           Value value) const {

@@ -5,7 +5,8 @@
 //           or CR LF. Empty lines, and anything after a #, are skipped. The first remaining line
 //           names the columns. Each later line has one number for each column; commas separate the
 //           numbers, and blanks and tabs may be around them. Columns may be in any order; columns
-//           with other names are skipped. docs/geometry.md shows an example. The file needs
+//           whose names are not listed below are skipped. docs/geometry.md shows an example. The
+//           file needs
 //             height_m             above mean sea level, strictly rising, the first at most 9,000 m
 //           and either
 //             refractivity         N-units, above 0 and at most 1000

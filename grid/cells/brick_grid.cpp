@@ -116,8 +116,8 @@ std::size_t count_of(const Code* codes, Code wanted) {
     return count;
 }
 
-// Each count has a loop of its own, because the compiler vectorizes such loops. It does not
-// vectorize a single loop for all counts, which took ten times as many instructions.
+// Each count has a loop of its own, because the compiler vectorizes such loops. The compiler does
+// not vectorize a single loop for all counts, so such a loop took ten times as many instructions.
 template <class Code>
 CodeCounts count_codes(const Code* codes) {
     CodeCounts counts;

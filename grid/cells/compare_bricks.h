@@ -17,7 +17,7 @@
 namespace stormcellar::grid {
 
 struct BrickDifferences {
-    // A - b for cells with a value in both grids, in the order of bricks.
+    // a - b for cells with a value in both grids, in the order of bricks.
     std::vector<float> values;
     accuracy::StatusCounts status;  // counts the cells that at least one of the grids has seen
 

@@ -63,8 +63,8 @@ Status validate_spacing(const GridSpec& spec) {
     return {};
 }
 
-// Returns true if an offset in cells is a multiple of one half, and the grid is then within the
-// largest possible grid about the center.
+// Returns true if an offset in cells is a multiple of one half, and a grid with this offset is
+// within the largest possible grid about the center.
 bool is_window_offset(double offset_cells, int cells) {
     constexpr double farthest = 0.5 * GridSpec::greatest_side;
     const double most = farthest - 0.5 * cells;

@@ -134,7 +134,7 @@ GridSpec window_spec(const GridSpec& domain, const GridWindow& window) {
     spec.nx = window.nx;
     spec.ny = window.ny;
     // Column 0 of the window is column first_x of the domain, so the center moves by first_x
-    // columns. This is exact, because numbers of this size are, including halves.
+    // columns. In double this is exact for numbers of this size, halves included.
     spec.offset_x_cells = 0.5 * (window.nx - 1) - (domain.center_x() - window.first_x);
     spec.offset_y_cells = 0.5 * (window.ny - 1) - (domain.center_y() - window.first_y);
     return spec;

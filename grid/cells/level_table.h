@@ -1,4 +1,4 @@
-// grid/cells/level_table.h -- the levels of a grid. Finds a height among them.
+// grid/cells/level_table.h -- the levels of a grid, and a search for the level at a height.
 //
 // A lookup starts from a table of equal steps and then searches along the levels, so it is exact.
 //

@@ -23,8 +23,8 @@ struct MomentRules {
     bool has_detection_limit = false;
     // The reason why values of different sites are not mixed; empty if they may be mixed.
     std::string_view why_sites_stay_apart = {};
-    // True if a mosaic nevertheless takes the largest of their values, as rotation that any of the
-    // sites sees is there.
+    // True if a mosaic nevertheless takes the largest value of all sites. For shear this is right,
+    // because rotation exists if any site sees it.
     bool takes_largest_of_sites = false;
 };
 

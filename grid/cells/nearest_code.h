@@ -7,8 +7,8 @@
 
 namespace stormcellar::grid {
 
-// Returns the code nearest to a value. It is a whole number, which may be outside the range of
-// codes.
+// Returns the code nearest to a value. The code is a whole number, which may be outside the range
+// of codes.
 [[nodiscard]] inline double nearest_code(float value, const Quantization& quantization) {
     const double steps =
         (static_cast<double>(value) - static_cast<double>(quantization.first_value)) /

@@ -78,7 +78,7 @@ Status validate_parallels(const GridSpec& spec) {
 
 // Checks a cone, which is cut open along the meridian opposite its center. Beyond the cut, a wedge
 // of the plane shows nothing, or places that are elsewhere on the map already. So does the part
-// beyond the pole at the tip of the cone. The grid must reach neither.
+// beyond the pole at the tip of the cone. The grid must reach neither of these two areas.
 Status validate_cone(const GridSpec& spec) {
     const Cone cone = cone_of(spec);
     // Side of the pole that is at the tip of the cone.

@@ -26,7 +26,7 @@ namespace stormcellar::grid {
 
 class ValueTally {
   public:
-    // Bin 0 counts values below -30 dBZ, the last bin values of 75 dBZ and more.
+    // Bin 0 counts values below -30 dBZ; the last bin counts values of 75 dBZ and more.
     static constexpr std::size_t bins = 23;
     static constexpr double first_edge_dbz = -30, bin_width_db = 5;
     [[nodiscard]] static double edge_dbz(std::size_t bin);  // the lower edge; bin 0 has none
@@ -39,7 +39,7 @@ class ValueTally {
         ++seen_[place];
         if (code >= quantization_.first_code()) count_value(place, code);
     }
-    // Adds a tally. It must have as many places and the same quantization.
+    // Adds a tally, which must have the number of places and the quantization of this tally.
     void add(const ValueTally& more);
 
     [[nodiscard]] std::size_t places() const { return seen_.size(); }
@@ -58,8 +58,8 @@ class ValueTally {
     [[nodiscard]] double quantile_dbz(std::size_t place, double share) const;
 
     // append_to() appends bytes_of() bytes, which hold all counts and sums. take_from() reads such
-    // bytes from the front of `bytes` and removes them. Errors: corrupt if a greatest value is one
-    // that no grid can have.
+    // bytes from the front of `bytes` and removes them. Errors: corrupt if no grid can have one of
+    // the greatest values.
     void append_to(std::vector<std::byte>& bytes) const;
     [[nodiscard]] Status take_from(std::span<const std::byte>& bytes);
     [[nodiscard]] static std::uint64_t bytes_of(std::size_t places);

@@ -1,7 +1,7 @@
 // grid/fill/beam_choice.h -- decides which beams count at a height of a column, for values and for
 // details.
 //
-// Between two adjacent beams both count, and upper_share() gives the share of the upper one.
+// Between two adjacent beams both count, and upper_share() gives the share of the upper beam.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) at most one beam counts,
 // which beam_alone() returns; the interpolation beam_weighted adds the neighbors of this beam. A
 // beam is any type with `height_m`, `lower_edge_m` and `upper_edge_m`.
@@ -12,7 +12,7 @@
 namespace stormcellar::grid {
 
 // Returns the beam that counts alone at a height. This is the nearer of the beams whose edges
-// enclose the height, or the lower one if both are equally near. Returns null if no beam encloses
+// enclose the height, or the lower beam if two are equally near. Returns null if no beam encloses
 // the height, which is then not seen. `below` is the highest beam at or below the height, and
 // `above` is the lowest beam above it; either is null if there is no such beam.
 template <class Beam>

@@ -30,7 +30,8 @@ struct BeamMixture {
                                    const Footprint* footprint);
 
 // Returns the heights of the beam over an azimuth and arc, with an empty mixture. The elevation of
-// the beam is its nearest radial's if the method uses measured elevations, else the sweep's.
+// the beam is that of the nearest radial if the method uses measured elevations, else that of the
+// sweep.
 [[nodiscard]] BeamMixture beam_over(const PolarSweep& sweep, const Method& method,
                                     float azimuth_deg, ArcPlace place);
 

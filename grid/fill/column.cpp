@@ -24,9 +24,9 @@ class Filler {
         fill_to(levels_.first_from(lowest.height_m), lowest.sample);
     }
 
-    // Fills the levels from `low` to below `high`. If both beams have the same state, and it is not
-    // a value, all levels between them have this state. Such levels form a run. This function only
-    // notes the run; end_run() fills it.
+    // Fills the levels from `low` to below `high`. If both beams have the same state, and this
+    // state is not `value`, all levels between them have this state. Such levels form a run. This
+    // function only notes the run; end_run() fills it.
     void between(const BeamSample& low, const BeamSample& high) {
         const bool same_state = low.sample.status == high.sample.status;
         if (same_state && low.adjacent_to_next && low.sample.status != CellStatus::value) {

@@ -3,8 +3,8 @@
 // Between the beams of two adjacent sweeps, a cell is blended from both, linear in height, or takes
 // the nearer beam (Interpolation::nearest). Elsewhere (below the lowest beam, above the highest,
 // and between sweeps with a lost cut between them), a cell takes the sample of the beam whose edges
-// enclose it. If the edges of two beams do, it takes the nearer beam; if none do, it is not seen.
-// grid/sweep/mixture.h has the rule for blending two samples.
+// enclose it. If two beams enclose the cell, the nearer beam counts. If no beam encloses the cell,
+// it is not seen. grid/sweep/mixture.h has the rule for blending two samples.
 //
 // Threads   Pure functions.
 #pragma once

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t tiles_a_piece = 16;
 
-// Converts the values of the columns from Z to dB. This step is off by default. It is never
-// inlined, so that it does not enlarge the usual loop.
+// Converts the values of the columns from Z to dB. This step is off by default. The function is
+// never inlined, so that it does not enlarge the usual loop.
 [[gnu::noinline]] void to_db(const FillWork& work, std::span<const TileColumn> columns) {
     for (const TileColumn& column : columns) {
         const std::span status = status_of(work, column);

@@ -41,7 +41,8 @@ void describe_times(const level2::Volume& volume, const std::vector<ChosenSweep>
     grid.end_time = last.value_or(grid.time);
 }
 
-// Returns a note that says how many sweeps of an elevation are equally good, and which one is used.
+// Returns a note that says how many sweeps of an elevation are equally good, and which of them is
+// used.
 std::string note_of_repeats(const ChosenSweep& sweep, std::optional<UtcTime> nearest_to) {
     const std::string rule =
         nearest_to ? fmt::format("the nearest to {}", format_utc(*nearest_to)) : "the newest";
@@ -115,8 +116,8 @@ Status check(const SitePosition& site, const ColumnGeometry& geometry,
     return {};
 }
 
-// Returns the time that chooses among repeated sweeps: the sweep that is nearest to it is used.
-// Returns none if the newest sweep is used.
+// Returns a time. Of repeated sweeps, the sweep nearest to this time is used. Returns none if the
+// newest sweep is used.
 std::optional<UtcTime> time_to_be_near(const level2::Volume& volume,
                                        const GridderOptions& options) {
     if (options.repeats == GridderOptions::Repeats::newest) return std::nullopt;

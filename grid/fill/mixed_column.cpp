@@ -92,7 +92,7 @@ Mixture MixedColumn::by_pattern(std::size_t nearest, float height_m, float width
     }
     if (!(total > 0)) return of_one(beams_[nearest], blending_);
     // For values that wrap, the beam that is added first is the reference, so it must have the
-    // largest weight. This is usually the nearest beam. If neighbors are far apart and rise
+    // largest weight. This beam is usually the nearest beam. If neighbors are far apart and rise
     // differently, the nearest beam may be out of reach; then the first beam that has a weight is
     // the reference.
     std::size_t first = nearest;
@@ -155,9 +155,9 @@ Mixture MixedColumn::between(float height_m) {
     return mixture;
 }
 
-// Returns the mixture at a height that is not between adjacent beams. It takes the nearer beam
-// whose edges enclose the height; for beam_weighted, also the neighbors of this beam that are
-// within reach.
+// Returns the mixture at a height that is not between adjacent beams. The mixture takes the nearer
+// beam whose edges enclose the height; for beam_weighted, it also takes the neighbors of this beam
+// that are within reach.
 Mixture MixedColumn::outside(float height_m) {
     const BeamMixture* const below = above_ > 0 ? &beams_[above_ - 1] : nullptr;
     const BeamMixture* const above = above_ < beams_.size() ? &beams_[above_] : nullptr;

@@ -10,10 +10,10 @@
 //                                 axis is the difference in height divided by the beam's rise per
 //                                 degree.
 // Elsewhere (below the lowest beam, above the highest, beside a lost cut) the sweep whose edges
-// enclose the height counts, or the nearer one if two do; beam_weighted adds the neighbors of this
-// sweep. If no edges enclose the height, it is not seen. A cell with an extent is the mean over
-// four heights. A level reaches half way to its neighbors, and the four heights are the middles of
-// its quarters.
+// enclose the height counts, or the nearer sweep if the edges of two sweeps enclose it;
+// beam_weighted adds the neighbors of this sweep. If no edges enclose the height, the height is not
+// seen. A cell with an extent is the mean over four heights. A level reaches half way to its
+// neighbors, and the four heights are the middles of its quarters.
 //
 // Threads   One thread at a time may use a MixedColumn.
 #pragma once

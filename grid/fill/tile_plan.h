@@ -1,8 +1,8 @@
 // grid/fill/tile_plan.h -- decides which sweeps must be sampled over a tile.
 //
 // If a sweep has a single status (no echo or not seen) all over a tile, it need not be sampled
-// there. If the sweeps around it have the same status, it can be dropped, because the cells between
-// equal states have that state anyway.
+// there. If the sweeps around it have the same status, the sweep can be dropped, because the cells
+// between equal states have that state anyway.
 //
 // Threads   One plan for each thread.
 // Accuracy  Exact: the grid has the same bits as if every sweep were sampled in every column.

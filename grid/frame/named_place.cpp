@@ -99,7 +99,7 @@ Error unknown(std::string_view text, const Asked& asked) {
         return Error{ErrorCode::bad_argument,
                      fmt::format("there is no place '{}'{}", printable(text), meant)};
     };
-    // If there is a town of this name elsewhere, the state is wrong, or it is not written with two
+    // A town of this name elsewhere means that the state is wrong, or is not written with two
     // letters.
     if (!asked.region.empty()) {
         const Candidates elsewhere = towns_called({asked.name, {}});

@@ -53,8 +53,8 @@ struct Finding {
 struct Gate {
     float value = 0;
     float period = 0;
-    // The detection limit, which stands for no echo in a mean. NaN: no echo does not enter the
-    // mean.
+    // The detection limit, which is the value of a gate without echo in a mean. NaN: such a gate
+    // does not enter the mean.
     float limit = std::numeric_limits<float>::quiet_NaN();
 };
 
@@ -156,7 +156,8 @@ class KindScan {
     }
 
   private:
-    // Returns a moment that has only the sampled gates. It is used only to compute their places.
+    // Returns a moment that has only the sampled gates. The result is used only to compute the
+    // places of these gates.
     static level2::SweepMoment thinned(const level2::SweepMoment& moment, int gate_step) {
         level2::SweepMoment few;
         few.first_gate_m = moment.first_gate_m;

@@ -21,8 +21,8 @@
 //           bound. The grid smooths the gates between levels and columns, including their noise,
 //           and neighboring gates of a radar differ by 2.6 dB.
 // Cost      Half the time of gridding, in proportion to the number of gates. For a grid of 460 x
-//           460 x 32 cells and one thread of a busy machine, it is 19 to 29 ms if the grid is about
-//           the site, and 24 to 39 ms if not.
+//           460 x 32 cells and one thread of a busy machine, the audit takes 19 to 29 ms if the
+//           grid is about the site, and 24 to 39 ms if not.
 // Threads   A pure function, with the same bits for any number of threads.
 #pragma once
 

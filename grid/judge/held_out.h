@@ -1,9 +1,10 @@
 // grid/judge/held_out.h -- scores how well a grid that was made for an instant matches a volume
 // that the radar measured at that instant.
 //
-// The middle one of three volumes in a row is held out. Each method of interpolation in time
-// (grid/mosaic/time_interpolation.h) reconstructs it from the other two. So the errors include the
-// growth and decay of the echo and the noise of the gates, in the same way for each method.
+// Of three volumes in a row, the middle volume is held out. Each method of interpolation in time
+// (grid/mosaic/time_interpolation.h) reconstructs it from the other two volumes. So the errors
+// include the growth and decay of the echo and the noise of the gates, in the same way for each
+// method.
 //
 // Units     Errors of REF in dB, over cells that both grids have seen (value or no echo) and that
 //           have 5 dBZ or more in at least one of the grids. No echo, and anything below 0 dBZ,
@@ -24,9 +25,9 @@ struct HeldOutScore {
     TimeMethod method = TimeMethod::nearest;
     accuracy::ErrorSummary error;
     double mean_db = 0;  // reconstructed minus measured
-    // Share of the cells measured at 20 dBZ or more: reconstructed below 10.
+    // Share of the cells measured at 20 dBZ or more that were reconstructed below 10 dBZ.
     double echo_missed = 0;
-    // Share of the cells reconstructed at 20 dBZ or more: measured below 10.
+    // Share of the cells reconstructed at 20 dBZ or more that were measured below 10 dBZ.
     double echo_invented = 0;
     double seconds = 0;  // time of the reconstruction, including the motion
 };

@@ -30,7 +30,7 @@ Result<Gridded> grid_one(const TimedVolume& timed, const ColumnGeometry& geometr
 }
 
 // For each sweep of the volume, makes the gridder prefer the middle time of that sweep, and notes
-// which sweep it chooses at the lowest elevation. Returns all of these.
+// which sweep the gridder chooses at the lowest elevation. Returns all noted sweeps.
 std::set<std::size_t> lowest_sweeps(const level2::Volume& volume, const SitePosition& site,
                                     level2::Moment moment) {
     std::set<std::size_t> found;

@@ -107,7 +107,7 @@ class Outline {
 
   private:
     // Computes the azimuthal equidistant projection without GridProjection. Uses GridProjection for
-    // the others, which have an oracle of their own (tests/grid/projection_test.cpp).
+    // the other projections, which have an oracle of their own (tests/grid/projection_test.cpp).
     [[nodiscard]] PolarPoint as_seen(double x, double y) const {
         const MaskedTraps masked;
         GeoPoint place = projection_.to_geo({x, y});
@@ -178,7 +178,7 @@ OracleColumn::OracleColumn(const level2::Volume& volume, const std::vector<Chose
 }
 
 // Returns the rise per degree, computed from the edges that are on the right side of the beam's
-// center. If neither is, returns the width of a degree at this range.
+// center. If neither edge is, returns the width of a degree at this range.
 double OracleColumn::rise_of(const Beam& beam, double range_m, double half_deg) {
     const bool has_lower = std::islessequal(beam.lower_edge_m, beam.height_m);
     const bool has_upper = std::isgreaterequal(beam.upper_edge_m, beam.height_m);

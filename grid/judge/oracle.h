@@ -5,10 +5,10 @@
 // the accuracy ladder compare the gridder with it. For each column it solves the geodesic and the
 // beams anew, and searches every radial. For each cell it lists all gates with their weights.
 //
-// Within its stated accuracy, the gridder may choose another nearest gate than the oracle.
-// is_doubtful() returns true for such a column: its result would change if the column were shifted
-// by less than doubt_range_m or doubt_azimuth_deg, or if beams whose heights differ by less than
-// doubt_height_m changed their order.
+// Within its stated accuracy, the gridder may choose another nearest gate for a column than the
+// oracle. is_doubtful() returns true for a column in which this may happen: its result would change
+// if the column were shifted by less than doubt_range_m or doubt_azimuth_deg, or if beams whose
+// heights differ by less than doubt_height_m changed their order.
 //
 // Threads   One thread for each object.
 #pragma once

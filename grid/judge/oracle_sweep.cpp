@@ -64,7 +64,7 @@ OracleSweep::OracleSweep(const level2::Sweep& sweep, const ChosenSweep& chosen,
     if (!(spacing_deg_ > 0)) spacing_deg_ = 1;
 }
 
-// Returns true if there is no gap between a radial and the next one, clockwise.
+// Returns true if there is no gap between a radial and the next radial, clockwise.
 bool OracleSweep::is_joined(std::size_t at) const {
     if (radials_.size() == 1) return false;
     const Radial& next = radials_[(at + 1) % radials_.size()];

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double huber_limit = 1.345;
 constexpr double deviations_a_median = 1.4826;
-// A number is not determined if the other numbers explain its sum of squared gradients except for a
-// smaller share than this.
+// A number is determined if more than this share of its sum of squared gradients remains after the
+// numbers before it were eliminated.
 constexpr double least_pivot = 1e-4;
 
 using Numbers = std::array<double, fit_size>;

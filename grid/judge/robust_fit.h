@@ -27,7 +27,7 @@ struct FitRow {
     std::uint32_t block = 0;                  // 0, 1, ...
 };
 
-// True for each number that is estimated. The others do not change.
+// True for each number that is estimated. No other number changes.
 using FitChoice = std::array<bool, fit_size>;
 
 struct Fit {
@@ -40,7 +40,7 @@ struct Fit {
     double deviation = 0;
 };
 
-// Fits the numbers. Returns none if the rows do not determine all of them. Then sets `unclear`,
+// Fits the numbers. If the rows do not determine all numbers, returns none and sets `unclear`,
 // unless it is null, to the first number that is not determined.
 [[nodiscard]] std::optional<Fit> fit(std::span<const FitRow> rows, FitChoice sought,
                                      std::size_t* unclear = nullptr);

@@ -8,7 +8,7 @@
 //   elevation_deg  B's echo is raised, by range times this angle: its elevations are too large.
 //   time_s         B's clock is late: B's time stamps are too early by this much, so B's echo is
 //                  displaced along the motion. The estimate needs a motion.
-// A comparison of two sites cannot tell which of them is at fault. With three sites, the faulty one
+// A comparison of two sites cannot tell which site is at fault. With three sites, the faulty site
 // is in both pairs that differ.
 //
 // Method    Least squares of A's cells minus B. B is read (trilinear) at the places to which the
@@ -17,13 +17,13 @@
 //           weights, and the jackknife over blocks of 24 km (grid/judge/robust_fit.h).
 //           docs/geometry.md has the formulas.
 // Cells     Every n-th column, at all levels, at ranges from `least_range_m` (nearer cells have
-//           clutter) to `greatest_range_m` from both sites. A cell counts if A has a value there
-//           and B has values in it and in its six neighbors. The mean of A and B must be at least
-//           `least_dbz`, so that no site's detection limit decides which cells count.
-// Untold    A fault has no estimate if the cells do not determine it: if there are too few cells,
-//           if the sites hardly see the same (correlation), or if two faults have the same effect
-//           there. Without a motion, the time has no estimate. If the sites also looked minutes
-//           apart, azimuth and elevation have none either.
+//           clutter) to `greatest_range_m` from both sites. A cell counts if A has a value in the
+//           cell and B has values in the cell and in its six neighbors. The mean of A and B must be
+//           at least `least_dbz`, so that no site's detection limit decides which cells count.
+// Unknown   A fault has no estimate if the cells do not determine it: there are too few cells, the
+//           sites hardly see the same echo (correlation), or two faults have the same effect there.
+//           Without a motion, the time has no estimate. If the sites also looked minutes apart,
+//           azimuth and elevation have no estimate, either.
 // Grids     Both grids may be windows of one domain, or they may differ altogether. Places are
 //           compared through the earth, and columns through the projection of each grid.
 //           Reflectivity only.

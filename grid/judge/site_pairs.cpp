@@ -84,7 +84,7 @@ class Matcher {
         pair.column = b_plane_.to_column(place);
         pair.block = block_of(spec, column);
         // Compute the shifts for one degree about B and for one meter away from B. Differences over
-        // a tenth of a degree and over 100 m give these.
+        // a tenth of a degree and over 100 m give these shifts.
         const ColumnPoint turned =
             b_plane_.to_column(b_frame_.to_geo({from_b.azimuth_deg + 0.1, from_b.arc_m}));
         const ColumnPoint farther =

@@ -35,7 +35,7 @@ struct BrickLayer {
     double site_altitude_m = 0;
 };
 
-// The codes of a layer; each column has 16 of them.
+// The codes of a layer, 16 for each column.
 template <class Code>
 struct LayerCodes {
     const Code* first = nullptr;
@@ -77,7 +77,7 @@ class BrickMerger {
     // An integer of the size of Real.
     using Word = std::conditional_t<sizeof(Code) == 1, std::int32_t, std::int64_t>;
 
-    // A layer's detection limit, which stands for its "no echo" in a mean. As Z, it is scale *
+    // A layer's detection limit, which is the value of its "no echo" in a mean. As Z, it is scale *
     // (arc^2 + (height - altitude)^2).
     struct Limit {
         Real scale = 0;

@@ -34,8 +34,8 @@ struct EchoImageOptions {
 };
 [[nodiscard]] EchoImage echo_image(const BrickView& view, const EchoImageOptions& options);
 
-// Returns an image with one pixel for each four: the mean of those of the four that are seen. The
-// new pixel is seen if at least half of them are seen.
+// Returns an image with one pixel for each square of four pixels: the mean of the seen pixels of
+// the square. The new pixel is seen if at least two of the four are seen.
 [[nodiscard]] EchoImage halved(const EchoImage& image);
 
 }  // namespace stormcellar::grid

@@ -42,7 +42,7 @@ float median_of(std::vector<float>& values) {
     return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-// Returns the median over the fields of the motion that `motion_of` takes from each.
+// Returns the median over the fields of the motion that `motion_of` takes from each field.
 template <class MotionOf>
 CellMotion median_over(std::span<const MotionField> fields, const MotionOf& motion_of) {
     std::vector<float> x, y;

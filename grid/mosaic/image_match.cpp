@@ -45,7 +45,7 @@ Correlation correlate(const EchoImage& before, const EchoImage& after, const Pix
 }
 
 // Returns the place of the top of a parabola. It goes through three values, at -1, 0 and 1; the
-// middle one is the greatest.
+// middle value is the greatest.
 double top_of_parabola(double before, double middle, double after) {
     const double curvature = before - 2 * middle + after;
     if (!(curvature < 0)) return 0;

@@ -29,7 +29,7 @@ std::uint16_t clamped_code(float value, const Quantization& quantization) {
 }
 
 // Returns the status of a cell if neither end has a value: the status that both have, or the status
-// of the only end that sees the cell. Returns none if the two see different statuses.
+// of the only end that sees the cell. Returns none if the two ends see different statuses.
 std::optional<CellStatus> joined(CellStatus a, CellStatus b) {
     if (a == b || b == CellStatus::not_seen) return a;
     if (a == CellStatus::not_seen) return b;

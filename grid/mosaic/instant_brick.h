@@ -64,8 +64,8 @@ class InstantBrick {
         bool is_still = true;  // no column has moved
     };
 
-    // Returns the status of all cells if they have the same one and it is known without reading a
-    // cell. Otherwise fills codes_.
+    // Returns the common status of all cells if it is known without reading a cell. Otherwise fills
+    // codes_.
     std::optional<CellStatus> make(int bz);
     void read_times(std::size_t end);
     void take_times(std::size_t end, int bz);

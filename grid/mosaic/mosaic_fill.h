@@ -24,7 +24,7 @@ struct MosaicWork {
 
 // Fills a mosaic. No cell of it may be seen yet.
 void fill_mosaic(const MosaicWork& work);
-// Fills the changed columns of bricks anew, and no others. `previous` must be null.
+// Fills only the changed columns of bricks anew. `previous` must be null.
 void refill_mosaic(const MosaicWork& work);
 
 }  // namespace stormcellar::grid

@@ -2,10 +2,10 @@
 //
 // Model     Echo moves in the plane of the grid, with the same motion at all heights; it may grow
 //           and decay. From both grids, images of the maximum of each column are made
-//           (grid/mosaic/echo_image.h). The estimate is the motion with which they correlate best:
-//           first for the whole image, then for overlapping blocks, near the motion of the whole
-//           image. Each block counts by its correlation. The field of motions is smoothed. Where
-//           there is no echo, the motion of the whole image counts.
+//           (grid/mosaic/echo_image.h). The estimate is the motion with which the images correlate
+//           best: first for the whole image, then for overlapping blocks, near the motion of the
+//           whole image. Each block counts by its correlation. The field of motions is smoothed.
+//           Where there is no echo, the motion of the whole image counts.
 // Units     Columns of the grid per second, east (x) and north (y), so that a grid in degrees needs
 //           no conversion. Multiply by GridSpec::cell_width_m() and cell_height_m() for m/s.
 // Accuracy  1.5 m/s for a pattern that moves rigidly, with pixels of 2 km and 300 s (enforced by
@@ -45,8 +45,8 @@ class MotionField {
 
     [[nodiscard]] CellMotion at(double ix, double iy) const;
     [[nodiscard]] CellMotion whole() const { return whole_; }
-    // Returns the greatest magnitude of x over all nodes, and that of y. No motion is faster along
-    // either axis.
+    // Returns the greatest magnitude of x and the greatest magnitude of y over all nodes. No motion
+    // is faster along either axis.
     [[nodiscard]] CellMotion greatest() const { return greatest_; }
 
   private:

@@ -6,7 +6,7 @@
 //   blend     Both volumes, with weights linear in time.
 //   advected  Both volumes, each moved with its echo to the instant (semi-Lagrangian, bilinear
 //             between columns), with weights linear in time.
-// With `sweep_times`, each cell has a time of its own (grid/sweep/sweep_clock.h); without, it has
+// With `sweep_times`, each cell has a time of its own (grid/sweep/sweep_clock.h). Otherwise, it has
 // the time of its volume's middle. The time determines the weight of the cell and how far it moves.
 // So all heights of a frame show the same instant.
 //

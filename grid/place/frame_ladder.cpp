@@ -117,9 +117,9 @@ double storage_error_bound_m(double reach_m) noexcept {
 // Consider a step ds along a geodesic from the site. Its image on the sphere is stretched by (1 +
 // north) along the meridian and by (1 + east) along the parallel, both at the latitude of the step.
 // Nothing else turns the image away from a great circle, because latitude and azimuth change alike
-// on both. So the end of the image is off by at most the integral of the larger of the two errors.
-// In the equidistant plane, this distance is multiplied by theta / sin(theta), where theta is the
-// angle of the arc. The bound adds 1 % for products of errors.
+// on both. So the larger of the two errors, integrated along the geodesic, bounds the distance by
+// which the end of the image is off. In the equidistant plane, this distance is multiplied by theta
+// / sin(theta), where theta is the angle of the arc. The bound adds 1 % for products of errors.
 double sphere_error_bound_m(double site_latitude_deg, double reach_m) noexcept {
     if (!(reach_m > 0)) return 0;
     // Two points of the disc are at most its width apart.

@@ -27,7 +27,7 @@ struct HalfExtent {
 };
 [[nodiscard]] HalfExtent half_extent_of(std::span<const SitePosition> sites, GeoPoint center);
 
-// A mosaic reaches this far beyond its outermost sites if nobody gives its extent.
+// A mosaic whose extent is not given reaches this far beyond its outermost sites.
 inline constexpr double seen_beyond_sites_m = 230'000;
 
 }  // namespace stormcellar::grid

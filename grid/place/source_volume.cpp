@@ -41,7 +41,8 @@ std::optional<level2::Decoded> decode_cuts(std::span<const std::byte> bytes,
     return std::move(*decoded);
 }
 
-// Takes one volume of the file. If the file has several, adds a note that says which one.
+// Takes one volume of the file. If the file has several volumes, adds a note that names the volume
+// taken.
 Result<level2::Volume> take_volume(level2::Decoded decoded, const SourceWish& wish,
                                    SourceVolume& source) {
     const bool damaged = decoded.report.damaged;

@@ -4,7 +4,7 @@
 // Values of VEL are on a circle of twice the Nyquist velocity, and values of PHI on a circle of 360
 // degrees. So they differ by the shorter way around. Sweeps may have different Nyquist velocities.
 // A cell uses the circles of the two sweeps whose beams (4/3 earth) pass next above and next below
-// it. If these circles differ, the one that gives the larger difference counts, so that no
+// it. If these circles differ, the circle that gives the larger difference counts, so that no
 // difference looks smaller than it is. If a circle is unknown, and for all other moments, values
 // differ as plain numbers.
 //

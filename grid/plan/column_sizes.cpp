@@ -9,7 +9,7 @@
 namespace stormcellar::grid {
 namespace {
 
-// Other beam models bend the beam more or less. This moves a gate along the ground by up to this
+// Other beam models bend the beam more or less, which moves a gate along the ground by at most this
 // much.
 constexpr float bent_by_m = 500;
 
@@ -24,7 +24,8 @@ std::vector<std::uint16_t> valued_cells(const Grid& base) {
     return valued;
 }
 
-// Returns the greatest number of cells with a value in a column or one of the eight around it.
+// Returns the greatest number of cells with a value in this column or one of the eight columns
+// around it.
 std::uint16_t most_beside(const std::vector<std::uint16_t>& valued, const GridSpec& spec, int ix,
                           int iy) {
     std::uint16_t most = 0;

@@ -24,7 +24,7 @@ namespace stormcellar::grid {
 // eight neighbors. If `most` is above 0, the size is 2 * most + 4, but at most the number of
 // levels: other methods bring in values from neighboring columns. If `most` is 0 but gates with
 // values are near, the size is the number of levels that these gates may fill, from the sweep below
-// a gate to the sweep above it. Otherwise it is 0.
+// a gate to the sweep above it. Otherwise the size is 0.
 [[nodiscard]] std::vector<std::uint16_t> column_sizes(const Grid& base, const SweepStack& stack,
                                                       const ColumnGeometry& geometry);
 

@@ -61,7 +61,7 @@ Result<double> stratum_s(GridScene& scene, const Method& method,
     return *took_s * static_cast<double>(stratum.count) / static_cast<double>(stratum.tiles.size());
 }
 
-// Estimates how long the geodesics of all columns take. Times only some of them.
+// Estimates how long the geodesics of all columns take. Times only some of the geodesics.
 double geodesics_s(const GridScene& scene) {
     constexpr int a_side = 16;
     const GridSpec& spec = scene.spec();

@@ -1,5 +1,5 @@
-// grid/plan/grid_cost.h -- predicts how long the grid of a scene takes with any choice of rungs. It
-// times parts of the grid.
+// grid/plan/grid_cost.h -- predicts how long the grid of a scene takes with any choice of rungs, by
+// timing parts of the grid.
 //
 // The time of a grid is the sum of four parts: its tiles; the tables of its sweeps; its geometry,
 // if that uses exact geodesics; and a rest, which is the same for all choices and is known from the

@@ -13,7 +13,7 @@
 // The exact form of the chain is the last rung of every step. A budget bounds the difference from
 // the exact form on the same gates. docs/accuracy.md says which forms are nearer to the truth.
 //
-// Threads   Pure functions, except the ones that take a scene (grid/plan/grid_scene.h).
+// Threads   Pure functions, except the functions that take a scene (grid/plan/grid_scene.h).
 #pragma once
 
 #include <span>
@@ -51,8 +51,8 @@ inline constexpr std::string_view circle = "circle";
 // the unit of the moment and on its circle.
 [[nodiscard]] accuracy::Choice usual_choice(const accuracy::Chain& chain);
 
-// Returns the choice with which others are compared: the last rung of every step, but with the
-// table as the frame. Geodesics for each column would differ from the table by a millimeter and
+// Returns the choice with which other choices are compared: the last rung of every step, but with
+// the table as the frame. Geodesics for each column would differ from the table by a millimeter and
 // take half a second.
 [[nodiscard]] accuracy::Choice reference_choice(const accuracy::Chain& chain);
 
@@ -66,8 +66,8 @@ inline constexpr std::string_view circle = "circle";
 
 // default_choice() returns the choice that is used without a budget. This is usual_choice(), except
 // that cells are areas if they are wider than the beam at 160 km (2.7 km for a WSR-88D), because
-// samples at points would alias. The extent of the grid does not matter, because the grid of a part
-// of an area must equal that part of the grid of the whole area.
+// samples at points would alias. The choice does not depend on the extent of the grid, so that
+// cells stay the same if the grid covers a larger area.
 inline constexpr double wide_cells_arc_m = 160e3;
 [[nodiscard]] accuracy::Choice default_choice(const accuracy::Chain& chain, const GridSpec& spec,
                                               double beam_width_deg);

@@ -56,8 +56,8 @@ Result<Position> frame_position(GridScene& scene, FrameKind kind) {
     return errors.summary();
 }
 
-// Returns the position errors by the beam: of gates every 2 km along the sweeps, up to the top
-// level.
+// Returns the position errors that the beam causes at gates every 2 km along the sweeps, up to the
+// top level.
 Position beam_position(const GridScene& scene, BeamKind kind) {
     constexpr double step_m = 2000;
     const RefractivityProfile& profile = scene.options().profile;
@@ -81,7 +81,8 @@ Position beam_position(const GridScene& scene, BeamKind kind) {
     return errors.summary();
 }
 
-// Returns the position errors by the elevation: of each radial where it leaves the grid.
+// Returns the position errors that the elevation causes on each radial at the place where the
+// radial leaves the grid.
 Position elevation_position(const GridScene& scene) {
     constexpr double step_m = 1000;
     PositionErrors errors;
@@ -113,8 +114,8 @@ Result<Position> position_of(GridScene& scene, const std::string& name, std::siz
     return Position{};
 }
 
-// Returns the position error of a whole chain. Its largest error is the sum of its steps' largest
-// errors. Its RMS error is the root of the sum of the squares of their RMS errors.
+// Returns the position error of a whole chain. The largest errors of its steps are added, and so
+// are the squares of their RMS errors.
 Result<Position> position_of(GridScene& scene, const SceneChoice& choice) {
     auto frame = frame_position(scene, choice.frame);
     if (!frame) return frame;

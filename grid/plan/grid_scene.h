@@ -3,7 +3,7 @@
 //
 // A scene keeps geometries and prepared sweeps, because several methods use them. Columns are drawn
 // in proportion to the number of their cells that may hold a value, so that few draws are wasted on
-// clear air. If only a few columns may hold a value, all of these are taken.
+// clear air. If only a few columns may hold a value, all of these columns are taken.
 //
 // Threads   One thread at a time; a scene starts up to `threads` threads of its own.
 #pragma once
@@ -37,7 +37,7 @@ struct SceneOptions {
     double beam_width_deg = 0;  // 0: beam_width_of() the site
     RefractivityProfile profile = RefractivityProfile::reference();
     int threads = 1;
-    // The time that chooses among repeated sweeps: the nearest to it is used; none: the newest.
+    // Of repeated sweeps, the sweep nearest to this time is used; none: the newest sweep.
     std::optional<UtcTime> nearest_to = std::nullopt;
 };
 
@@ -45,7 +45,7 @@ struct SceneOptions {
 struct ColumnSample {
     struct Drawn {
         int ix = 0, iy = 0;
-        double weight = 1;  // number of columns that a draw stands for, up to a common factor
+        double weight = 1;  // number of columns that a draw represents, up to a common factor
         int draws = 1;
     };
     std::vector<Drawn> columns;
@@ -87,7 +87,7 @@ class GridScene {
                                                 const SitePosition& site, const GridSpec& spec,
                                                 const SceneOptions& options);
 
-    // Returns the grid by the default method. It decides how columns are sampled.
+    // Returns the grid by the default method. This grid decides how columns are sampled.
     [[nodiscard]] const Grid& base() const { return base_; }
     // Returns the seconds that the base took. For one thread, all times of a scene are processor
     // time, whatever else the machine does. For several threads, they are elapsed time.

@@ -65,10 +65,10 @@ Status predict_step(GridScene& scene, const ColumnSample& sample, const SampledC
     return {};
 }
 
-// Returns how many columns give a good bound of the 99th percentile. With 900 columns that each
-// hold as many errors as a column can (accuracy/quantile_bound.h), the bound is only the greatest
-// error; three times as many make it good. If columns hold fewer errors, more columns are needed,
-// in proportion. A separate sample shows how many errors they hold.
+// Returns how many columns give a good bound of the 99th percentile. If each of 900 columns holds
+// as many errors as a column can, the bound is just the greatest error (accuracy/quantile_bound.h);
+// three times as many columns give a good bound. If columns hold fewer errors, more columns are
+// needed, in proportion. A separate sample shows how many errors columns hold.
 Result<std::size_t> columns_for_a_bound(GridScene& scene, const SceneChoice& exact,
                                         const PlanOptions& options) {
     constexpr double full_columns = 3 * 900;

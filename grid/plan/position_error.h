@@ -26,7 +26,7 @@
 
 namespace stormcellar::grid {
 
-// The input of the bounds. All objects in it must outlive it.
+// The input of the bounds. The referenced objects must outlive the PositionScene.
 struct PositionScene {
     const level2::Volume& volume;
     const SitePosition& site;

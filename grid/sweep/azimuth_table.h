@@ -2,9 +2,10 @@
 //
 // The table finds the nearest radial, the two radials on either side of an azimuth, or all radials
 // within a reach. If two neighboring radials are more than one and a half spacings apart, there is
-// a gap: each of the two reaches half a spacing into it, and no radial sees the rest. Pairs and
-// neighborhoods do not extend across gaps. If radials have the same azimuth, the one that is later
-// in the given order counts. Radials may be in any order and number, and may wrap around north.
+// a gap: each of the two reaches half a spacing into the gap, and no radial sees the rest of it.
+// Pairs and neighborhoods do not extend across gaps. If radials have the same azimuth, the radial
+// that is later in the given order counts. Radials may be in any order and number, and may wrap
+// around north.
 //
 // A lookup starts from a table of quarter degrees and then searches along sorted boundaries,
 // usually for a step or two. So it is exact.

@@ -3,11 +3,11 @@
 //
 // The rule (docs/geometry.md): the gates of a cell have the total weights v (valued), n (no echo),
 // f (range folded), a (ambiguous) and u (not seen). If u is over one half of the sum, the cell is
-// not seen. Otherwise, if f + a is larger than v and than n, the cell is range folded or ambiguous,
+// not seen. Otherwise, if f + a is larger than both v and n, the cell is range folded or ambiguous,
 // whichever weighs more. Otherwise, if v < n, the cell is no echo. Otherwise, the cell has a value.
-// Range folded, ambiguous and not seen never enter a value; the other weights are scaled to 1. For
-// reflectivity, no echo enters a value with the detection limit of its gate; for other moments it
-// does not enter.
+// Range folded, ambiguous and unseen gates never enter a value; the other weights are scaled to 1.
+// In reflectivity, gates without echo enter a value with their detection limits; in other moments
+// they do not enter.
 //
 // Values that wrap (VEL at +-Nyquist, PHI at 360 degrees) are averaged on their circle. They enter
 // the mean as differences from the value with the largest weight, the shorter way around. Values

@@ -1,8 +1,8 @@
 // grid/sweep/polar_sweep.h -- one sweep of a moment, prepared for sampling at many columns.
 //
 // Numbers that depend only on the arc (the number of the gate, the height of the beam) are in
-// tables with a step of 500 m, and are linear in between. The gates of a radial are placed by the
-// elevation of the sweep and not of the radial.
+// tables with a step of 500 m, and are linear in between. The elevation of the sweep, and not that
+// of the radial, places the gates.
 //
 // Units     Values are in the unit of the moment, or in mm^6/m^3 (Averaging::in_z, reflectivity
 //           only).

@@ -8,8 +8,8 @@
 // center and the edges of the sweep's beam. An edge is lost if it never passes over an arc, or if
 // it passes on the wrong side of the beam's center. Ducts and the ground cause this. A lost edge is
 // replaced by the mirror image of the other edge. If both are lost, each is placed half a beam
-// width (at the range of the center) from the center. So the beam rises per degree as its remaining
-// half does. Nothing is seen between the center and a lost edge.
+// width (at the range of the center) from the center. So the whole beam rises per degree as the
+// half whose edge is not lost does. Nothing is seen between the center and a lost edge.
 //
 // Threads   Immutable; many threads may use one object.
 // Accuracy  grid/sweep/polar_sweep.h states it.

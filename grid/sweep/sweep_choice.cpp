@@ -80,8 +80,8 @@ double reach_of(const level2::Sweep& sweep, level2::Moment moment) {
     return reach_m;
 }
 
-// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond it is lost,
-// unless a surveillance sweep sorts it out. Returns 0 for Doppler moments, because their
+// Returns the median unambiguous range, by which sweeps are chosen. Echo from beyond this range is
+// lost, unless a surveillance sweep sorts it out. Returns 0 for Doppler moments, because their
 // unambiguous range is always short.
 double unambiguous_range_m(const level2::Sweep& sweep, level2::Moment moment,
                            std::span<const std::uint32_t> radials) {

@@ -76,7 +76,7 @@ class SweepGates {
         return rows_[static_cast<std::size_t>(position)].radial;
     }
 
-    // Returns the moment of the radial; null if the radial has no gates of it.
+    // Returns the moment of the radial; null if the radial has no gates of the moment.
     [[nodiscard]] const level2::SweepMoment* moment_of(int position) const {
         const Row& row = rows_[static_cast<std::size_t>(position)];
         return row.gate_count > 0 ? kinds_[row.kind].moment : nullptr;

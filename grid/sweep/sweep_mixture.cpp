@@ -50,8 +50,8 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
         int position;
         float weight;
     };
-    // Radials are at least 0.2 degrees apart, so more than this within reach are damage and do not
-    // count.
+    // Radials are at least 0.2 degrees apart. So if more radials than this are within reach, the
+    // data are damaged, and the further radials do not count.
     std::array<Weighted, 32> radials{};
     std::size_t count = 0;
     float total = 0;
@@ -65,7 +65,7 @@ Mixture gates_by_pattern(const PolarSweep& sweep, float azimuth_deg, ArcPlace pl
     });
     if (count == 0) return Mixture::of_unseen();
     Mixture mixture;
-    // If the pattern is 0 at all radials, only the first one counts, which is the nearest.
+    // If the pattern is 0 at all radials, only the first radial counts, which is the nearest.
     if (!(total > 0)) {
         sweep.gates().add_along_radial(radials[0].position, place, 1, mixture);
         return mixture;
