@@ -43,7 +43,7 @@ enum class Reach {
 
 // The conditions under which a limit spares the newest grids.
 struct Protection {
-    // Spares grids written less than this ago; 0: written at any time.
+    // Spares grids written less than this ago; 0: spares them whenever they were written.
     std::chrono::milliseconds age{};
     std::optional<std::uint64_t> space;  // spares at most half of this space; none: no limit
 };
@@ -58,8 +58,8 @@ class Account {
     void set_now(UtcTime now);
     // Sets the size of the file system, for budgets in percent; 0: unknown.
     void set_capacity(std::uint64_t bytes) { capacity_ = bytes; }
-    // Asks `is_known` again about one group, or about all. Otherwise the account asks once for each
-    // group, when the group's first grid comes.
+    // Asks `is_known` again about one group, or about all groups. Otherwise the account asks once
+    // for each group, when the group's first grid comes.
     void ask_who_is_known();
     void ask_who_is_known(std::string_view group);
     [[nodiscard]] bool is_known(std::string_view group) const;
@@ -90,15 +90,14 @@ class Account {
 
     // Returns the newest believable time of the group's grids, or none.
     [[nodiscard]] std::optional<UtcTime> newest(std::string_view group) const;
-    // Returns true if a grid of this name is the newest of its domain and moment, or would be.
+    // Returns true if a grid of this name is, or would be, the newest of its domain and moment.
     [[nodiscard]] bool is_newest(const GridName& name) const;
-    // Returns true if a grid of this name must be kept, even if protected grids must be evicted for
-    // it. This is so if its group is known, and the grid is pinned, or is or would be the newest of
-    // its domain and moment.
+    // Returns true if a grid of this name must be kept, even if protected grids must be evicted to
+    // make room. This is so if the grid's group is known, and if the grid is pinned or is_newest().
     [[nodiscard]] bool is_to_stay(const GridName& name) const;
-    // Returns true if a grid of this name, written now, is older than its group's limit of age.
-    // Returns false for a pinned grid. Returns false for the newest grid of a domain and moment in
-    // a known group, unless the grid is a part of a mosaic.
+    // Returns true if a grid of this name that is written now would exceed its group's limit of
+    // age. Returns false for a pinned grid. Returns false for the newest grid of a domain and
+    // moment in a known group, unless the grid is a part of a mosaic.
     [[nodiscard]] bool is_expired(const GridName& name, const Budgets& budgets) const;
 
     // Returns the space that a budget allows, as stormcellar/cache/budget.h defines it; none: no
@@ -174,7 +173,7 @@ class Account {
     [[nodiscard]] const Group* group_of_name(std::string_view group) const;
     [[nodiscard]] bool believed(UtcTime time) const { return is_believed(time, now_); }
     // Returns the newest grid of the domain and moment that has a believable time (is_believed()).
-    // If none has, returns the newest of all. Returns null if there is no grid.
+    // If no grid has such a time, returns the newest grid of all. Returns null if there is no grid.
     [[nodiscard]] const Item* newest_of(const Group& group, const std::string& domain,
                                         level2::Moment moment) const;
     // Visits the newest grid of each domain and moment of the group.

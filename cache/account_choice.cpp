@@ -49,7 +49,7 @@ bool Account::is_newest(const GridName& name) const {
     const Item* const item = newest_of(*group, name.domain, name.moment);
     if (item == nullptr) return true;
     const UtcTime newest = item->first.time;
-    // A grid with a believable time counts as newer than every grid without one.
+    // A grid with a believable time counts as newer than every grid without a believable time.
     if (believed(name.time) != believed(newest)) return believed(name.time);
     return name.time >= newest;
 }
@@ -96,9 +96,9 @@ std::set<const Account::Item*> Account::lapsed(const Group* group,
     return {first, items.end()};
 }
 
-// Tells which grids are protected from one limit: the limit of a group, or the total limit. Finds
-// the grids that lose their protection only when a protected grid comes up for eviction, which is
-// rare.
+// Tells which grids are protected from one limit: the limit of a group, or the total limit. It is
+// rare that a protected grid comes up for eviction. Only then does this class find the grids that
+// lose their protection.
 class Account::Shield {
   public:
     Shield(const Account& account, const Group* group, const Protection& protection)
@@ -159,7 +159,7 @@ bool Account::fits(std::string_view group, std::uint64_t bytes, const Budgets& b
 }
 
 // Returns the end of the grids in `order` that may be evicted for a grid of this name. A grid of
-// others may only replace other grids of others.
+// others may only replace grids of others.
 Account::Order::const_iterator Account::end_for(const Order& order, const GridName& name) const {
     if (is_to_stay(name)) return order.end();
     const bool known = is_known(group_of(name.domain));

@@ -25,8 +25,8 @@ namespace stormcellar::cache {
                                        const grid::Quantization& quantization);
 
 // Checks that every entry is of one of the three kinds and has the only allowed form. Unused fields
-// are zero. Counts, codes and packed sizes are in range. The entries refer to all status blocks,
-// once each and in order. No cell of a status block has the status `value`.
+// are zero. Counts, codes and packed sizes are in range. The entries refer to each status block
+// once, in the order of the blocks. No cell of a status block has the status `value`.
 [[nodiscard]] Status check_bricks(std::span<const grid::BrickEntry> bricks,
                                   std::span<const std::byte> states,
                                   const grid::Quantization& quantization, Packing packing);

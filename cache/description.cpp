@@ -82,7 +82,8 @@ void append(std::vector<std::byte>& bytes, const T* first, std::size_t count) {
 
 void append_record(std::vector<std::byte>& bytes, RecordKind kind,
                    std::span<const std::byte> contents) {
-    // The length loses bits above 32, but the writer knows the true size and refuses such a record.
+    // The length loses bits above 32, but the writer knows the true size and refuses a record that
+    // is so long.
     const RecordHead head{static_cast<std::uint16_t>(kind), 0,
                           static_cast<std::uint32_t>(contents.size())};
     append(bytes, &head, 1);
@@ -226,7 +227,7 @@ bool read_audit(std::span<const std::byte> bytes, std::vector<grid::AuditRow>& r
     return std::all_of(rows.begin(), rows.end(), grid::is_possible);
 }
 
-// Reads a record of text_records or list_records. Returns false if it is of another kind.
+// Reads a record of text_records or list_records. Returns false for a record of any other kind.
 bool read_text_record(RecordKind kind, std::span<const std::byte> contents,
                       grid::Provenance& provenance) {
     for (const TextRecord& record : text_records) {

@@ -20,8 +20,8 @@ namespace stormcellar::cache {
 // parallels.
 [[nodiscard]] std::vector<std::byte> encode_description(const GridDescription& description);
 
-// Decodes the same parts of a description. Errors: corrupt if a record runs past the end, has an
-// impossible size, or (in an audit) impossible numbers.
+// Decodes the parts that encode_description() encodes. Errors: corrupt if a record runs past the
+// end, has an impossible size, or (in an audit) impossible numbers.
 [[nodiscard]] Status decode_description(std::span<const std::byte> bytes,
                                         GridDescription& description);
 

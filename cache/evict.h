@@ -26,7 +26,7 @@ struct EvictionOrder {
     // large the grid is. But `older_than` may choose the newest grid of a part (NAME.ICAO). `bytes`
     // chooses grids of unknown groups first.
     std::optional<UtcTime> to;           // grids up to and including this time
-    std::optional<std::uint64_t> bytes;  // the oldest grids, until the others take at most this
+    std::optional<std::uint64_t> bytes;  // the oldest grids, until at most this is left
     // Grids that are older than the newest grid of their group by more than this.
     std::optional<std::chrono::milliseconds> older_than;
 };
@@ -34,7 +34,7 @@ struct EvictionOrder {
 struct EvictionPlan {
     std::vector<StoreEntry> victims;  // oldest first
     std::size_t looked_at = 0;        // number of grids in the requested domains
-    std::size_t pinned = 0;           // number of pinned grids among them
+    std::size_t pinned = 0;           // how many of these grids are pinned
     std::uint64_t bytes_left = 0;     // size on disk of the grids that stay
 };
 [[nodiscard]] Result<EvictionPlan> plan_eviction(const StoreReader& store,

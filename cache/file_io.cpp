@@ -56,7 +56,7 @@ Result<Descriptor> open_for_reading(const std::filesystem::path& path) {
 }
 
 Map::~Map() {
-    // First, because the addresses may belong to another map after unmapping.
+    // Release the registration first: after unmapping, the addresses may belong to another map.
     registration_.release();
     if (start_ != nullptr) ::munmap(const_cast<std::byte*>(start_), size_);
 }

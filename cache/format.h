@@ -16,13 +16,13 @@ namespace stormcellar::cache::format {
 
 static_assert(std::endian::native == std::endian::little, "grid files are mapped as they stand");
 
-// The first bytes of a file. They distinguish the file from text. They differ if the file was sent
-// over a 7-bit line, or if its line ends were converted.
+// The first bytes of a file. They distinguish the file from text. A file has other first bytes if
+// it was sent over a 7-bit line, or if its line ends were converted.
 inline constexpr std::array<unsigned char, 8> magic = {0x89, 'S', 'C', 'G', '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t byte_order_mark = 0x01020304;
 inline constexpr std::uint32_t version = 2;
-// The oldest version that is read. The versions from here to `version` differ only in the meaning
-// of their records.
+// The oldest version that is read. The versions from this one to `version` differ only in the
+// meaning of their records.
 inline constexpr std::uint32_t oldest_version = 1;
 inline constexpr std::uint64_t page_size = 4096;
 

@@ -1,8 +1,8 @@
 // cache/grid_facts.h -- reads the facts of a grid file (its header and description), without its
 // cells.
 //
-// Only the bytes before the codes are read, so reading a packed file takes no longer. Programs that
-// list many grids use these facts.
+// Only the bytes before the codes are read, so a packed file takes no longer than an unpacked one.
+// Programs that list many grids use these facts.
 //
 // Threads   Pure function, which reads a file.
 #pragma once

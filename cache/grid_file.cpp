@@ -69,8 +69,8 @@ bool is_packed(const FileHeader& header) {
     return (header.required_features & format::packed_codes) != 0;
 }
 
-// Returns the layout that follows from the sizes in the header. Fails if the header has other
-// offsets.
+// Returns the layout that follows from the sizes in the header. Fails if the header's offsets
+// differ from this layout.
 Result<format::Layout> checked_layout(const FileHeader& header) {
     const auto along = [](std::uint32_t cells) {
         return static_cast<std::uint32_t>(grid::bricks_along(static_cast<int>(cells)));

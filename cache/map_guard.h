@@ -11,9 +11,9 @@
 
 namespace stormcellar::cache {
 
-// Installs the guard for the rest of the process; further calls do nothing. Any thread may call it,
-// preferably before the first grid file is opened. Setting another handler for SIGBUS later removes
-// the guard.
+// Installs the guard for the rest of the process; further calls do nothing. Any thread may call
+// this function, preferably before the first grid file is opened. Setting another handler for
+// SIGBUS later removes the guard.
 void install_map_guard();
 
 }  // namespace stormcellar::cache

@@ -60,8 +60,8 @@ void MapRegistration::release() {
     place_ = nullptr;
 }
 
-// A place that is being changed can be skipped: during the fault, the map whose read failed keeps
-// its place unchanged.
+// Skips a place that is being changed. The map whose read failed has another place, because nobody
+// changes the place of that map during the fault.
 std::optional<MapRange> cut_map_at(std::uintptr_t address) {
     for (Block* block = &first_block(); block != nullptr; block = block->next.load()) {
         for (MapPlace& place : block->places) {

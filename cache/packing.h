@@ -14,10 +14,10 @@
 
 namespace stormcellar::cache {
 
-// Packs the codes of one brick. Returns them unchanged if packing would not make them shorter.
+// Packs the codes of one brick. Returns the codes unchanged if packing would not make them shorter.
 [[nodiscard]] std::vector<std::byte> pack_brick(std::span<const std::byte> codes);
 
-// Unpacks into `codes`. Errors: corrupt if `packed` does not unpack to exactly that many bytes.
+// Unpacks into `codes`. Errors: corrupt if `packed` does not unpack to the size of `codes`.
 [[nodiscard]] Status unpack_brick(std::span<const std::byte> packed, std::span<std::byte> codes);
 
 // Memory that is all zeros at first. The system provides a page only when it is written, so the

@@ -2,9 +2,9 @@
 //
 // A pin is an empty file beside the grid, X.scg.pin. Any process may set a pin, and the pin
 // outlives the process. The pin belongs to the grid's name, so a grid that is replaced stays
-// pinned. Pinning and evicting lock the directory of the day with flock, which the system releases
-// when its holder dies. So if pin_grid() comes first, evict_grid() does not evict the grid; if
-// evict_grid() comes first, pin_grid() returns not_found.
+// pinned. Pinning and evicting lock the directory of the day with flock. The system releases the
+// lock when its holder dies. If pin_grid() gets the lock first, evict_grid() does not evict the
+// grid; if evict_grid() gets the lock first, pin_grid() returns not_found.
 //
 // Threads   Any thread of any process.
 // Errors    Messages name the path.

@@ -81,8 +81,8 @@ Result<std::unique_ptr<Roller>> Roller::open(FileSystem& file_system, fs::path d
     return roller;
 }
 
-// Grids of others (whose group is unknown) do not count for the total limit here. Otherwise they
-// could cause known grids to be evicted down to the low mark.
+// Grids whose group is unknown do not count for the total limit here. Otherwise they could cause
+// grids of known groups to be evicted down to the low mark.
 void Roller::note_reached(const std::string& group, std::uint64_t bytes) {
     const auto is_full = [&](std::uint64_t used, const Budget& budget) {
         return budget.bytes && used + bytes > *budget.bytes;

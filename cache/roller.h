@@ -2,10 +2,10 @@
 // cache room; stormcellar/cache/store.h is the public header.
 //
 // A Roller has the account of the grids in the cache. open() makes the account from the files. Each
-// roll() corrects it if other programs removed, added or pinned grids. Before a commit writes the
-// first byte, the Roller reserves the largest size that the file may take, and evicts grids if
-// there is too little room. It syncs the removal of names before it uses their room again. Each
-// file is removed in one step, so a crash leaves a grid whole or removes it.
+// roll() corrects the account if other programs removed, added or pinned grids. Before a commit
+// writes the first byte, the Roller reserves the largest size that the file may take, and evicts
+// grids if there is too little room. It syncs the removal of files before it uses their room again.
+// Each file is removed in one step, so a crash leaves a grid whole or removes it.
 //
 // Threads   Any thread. The account is not locked while files are written, or while grids are
 //           evicted.
@@ -35,8 +35,8 @@ namespace stormcellar::cache {
 
 class Roller;
 
-// Room for one file that is being written. The destructor frees the room. Then it enters into the
-// account the grid that exists at the path: the new grid, the old grid or none.
+// Room for one file that is being written. The destructor frees the room. Then it looks at the
+// path, and enters what it finds into the account: the new grid, the old grid or no grid.
 class Reservation {
   public:
     Reservation(Roller& roller, GridName name, std::uint64_t bytes)
@@ -73,8 +73,8 @@ class Roller {
     // grid. Returns false if no budget limits the space of the grid's group, or if nothing was
     // evicted.
     bool make_room(const GridName& name, std::uint64_t bytes);
-    // If the grid's group is unknown, returns true and counts the grid as not kept. Such a grid is
-    // left out if the disk is full, because nobody should wait for it.
+    // If the grid's group is unknown, returns true and counts the grid as not kept. A grid of an
+    // unknown group is left out if the disk is full, because nobody should wait for such a grid.
     bool leaves_out(const GridName& name);
     // Counts a temporary file that could not be removed. Later rolls try to remove it.
     void add_leftover(std::string_view group, const std::filesystem::path& path);

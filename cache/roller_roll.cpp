@@ -32,7 +32,7 @@ struct Span {
 };
 std::optional<Span> span_of(const Day& day) {
     const auto from = parse_compact(day.day + "_000000");
-    if (!from) return std::nullopt;  // eight digits that are not a date, so no file in it is a grid
+    if (!from) return std::nullopt;  // not a date, so the directory holds no grids
     return Span{*from, *from + std::chrono::days{1} - std::chrono::milliseconds{1}};
 }
 
@@ -128,8 +128,8 @@ void Roller::remove_leftovers() {
     });
 }
 
-// Evicts grids of others (whose group is unknown) that were written long ago, and then the oldest
-// of them beyond their share of the space.
+// Evicts grids of others (whose group is unknown) that were written long ago. If grids of others
+// then still exceed their share of the space, evicts the oldest.
 void Roller::limit_others(const OnStep& step) {
     const auto evict_each = [&](auto choose) STORMCELLAR_REQUIRES(mutex_) {
         evict_all([&]() STORMCELLAR_REQUIRES(mutex_) {
