@@ -139,8 +139,9 @@ Status CatalogWriter::note_file(const FileFacts& facts) {
         return database.register_file(facts);
     });
     if (!noted) {
-        // A file in the database of unknown stations may belong to any station, so it waits for
-        // this database only if the disk is full.
+        // A file that is for the database of unknown stations may turn out to belong to another
+        // database. So the file need not wait for the database of unknown stations, unless the disk
+        // is full.
         const bool is_other_trouble =
             name == unknown_station && noted.error().code != ErrorCode::no_space;
         return is_other_trouble ? Status{} : pass_on(noted);

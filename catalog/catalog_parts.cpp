@@ -12,19 +12,19 @@ namespace {
 namespace fs = std::filesystem;
 
 // A database with at most this many rows is searched for strays (rows of files that are named like
-// another station) while a new file waits, which takes some milliseconds. mark_missing() searches
-// larger databases.
+// another station) while a new file waits. The search takes some milliseconds. mark_missing()
+// searches larger databases.
 constexpr std::int64_t most_looked_through = 10'000;
 
-// A database in trouble is not tried again within this time for other stations.
+// A database in trouble is not tried again within this time for files of other stations.
 constexpr std::chrono::seconds between_tries{10};
 
-// If a try took longer than this, the database is not tried again within `between_tries` for its
-// own station, either.
+// If a try took longer than this, the database is not tried again within `between_tries` for files
+// of its own station, either.
 constexpr std::chrono::seconds longest_try{1};
 
-// The number of databases closed when descriptors run out. It leaves descriptors to open one
-// database, and for the process's other needs at that time.
+// The number of databases closed when descriptors run out. The freed descriptors are enough to open
+// one database, and for what the process does meanwhile.
 constexpr std::size_t closed_when_out = 8;
 
 std::string summary_of(const std::vector<std::string>& damage) {
@@ -254,7 +254,7 @@ bool CatalogReader::Impl::may_have_stray(const std::string& name, bool is_likely
     const auto began = std::chrono::steady_clock::now();
     // Damage is repaired when the database is used, or when files of its own station come.
     const auto looked = attempt(*place, name, false, [&](StationDatabase& database) {
-        if (place->strays != Strays::unknown) return true;  // another thread has done it
+        if (place->strays != Strays::unknown) return true;  // another thread has searched
         place->strays =
             find_strays(database, name, most_looked_through).value_or(Strays::too_many_rows);
         return true;

@@ -70,10 +70,10 @@ struct CatalogReader::Impl {
     // The result of `work` on a database.
     template <class Work>
     using Done = Result<std::invoke_result_t<Work&, StationDatabase&>>;
-    // Runs `work` on the database of this name, which is opened if necessary and, by a writer,
-    // repaired if it is damaged. A writer creates a missing database if `create` is set; otherwise
-    // the error is not_found. An error is listed as a trouble of the station until a later call
-    // succeeds.
+    // Runs `work` on the database of this name. Opens the database if necessary. A writer also
+    // repairs a damaged database. A missing database is created by a writer if `create` is set;
+    // otherwise the error is not_found. An error is listed as a trouble of the station until a
+    // later call succeeds.
     template <class Work>
     Done<Work> with(const std::string& name, bool create, Work work) {
         const OpenDatabases::Lease place = databases.lease(name);
@@ -89,7 +89,7 @@ struct CatalogReader::Impl {
     }
 
     // Calls with() on behalf of another station. Does not try a database that was in trouble
-    // seconds ago, because a try may take until a failing disk gives up.
+    // seconds ago, because a try may last until a failing disk gives up.
     template <class Work>
     Done<Work> with_neighbor(const std::string& name, Work work) {
         if (auto recent = recent_trouble(name)) return tl::unexpected<Error>(std::move(*recent));
@@ -129,7 +129,7 @@ struct CatalogReader::Impl {
     }
     [[nodiscard]] std::vector<Trouble> troubles() const;
 
-    // Returns the names of the databases in the directory whose stations the rule knows, sorted.
+    // Returns the names of those databases in the directory whose stations the rule knows, sorted.
     [[nodiscard]] Result<std::vector<std::string>> names();
 
     // Returns the names of the databases that may have a row of the path. A row in another database
@@ -138,8 +138,8 @@ struct CatalogReader::Impl {
     // not look up a new file in every database.
     [[nodiscard]] Result<std::vector<std::string>> names_that_may_have(
         const std::filesystem::path& path);
-    // Searches a database for strays if names_that_may_have() did not, because it has too many
-    // rows.
+    // Searches a database for strays if names_that_may_have() did not, because the database has too
+    // many rows.
     void look_for_strays(StationDatabase& database, const std::string& name);
     // Notes that the database gets a row of the path. Call it before the row is written, with the
     // slot's mutex held.
@@ -162,8 +162,8 @@ struct CatalogReader::Impl {
     // Returns the trouble of a database that was tried seconds ago.
     [[nodiscard]] std::optional<Error> recent_trouble(const std::string& name) const;
     // Returns recent_trouble(), but only if the try took long, for example because another process
-    // has locked the database. Then files of the same station do not try again at once, because
-    // other stations would have to wait for their threads.
+    // has locked the database. Then files of the same station do not try again at once: they would
+    // occupy the threads that files of other stations need.
     [[nodiscard]] std::optional<Error> slow_trouble(const std::string& name) const;
 
     // A trouble that has not ended.

@@ -1,6 +1,6 @@
 // Defines the regular work of a CatalogWriter on all rows: it marks rows of missing files and
 // deletes old rows. If one station's database cannot be used (troubles()), the work continues with
-// the others.
+// the other databases.
 #include <algorithm>
 #include <map>
 #include <span>

@@ -38,7 +38,7 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
         const bool is_missing = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
         if (!is_missing) {
             check.unseen.push_back(path);
-        } else if (!archive::member_path_of(path)) {  // a member is there if its archive is
+        } else if (!archive::member_path_of(path)) {  // a member exists if its archive does
             check.missing.push_back(path);
         }
         return;

@@ -64,8 +64,9 @@ struct ClearReport {
 // existing files are read again (by a daemon at its start, or by rebuild_catalog()), their rows are
 // made again among the files of unknown stations. Rows of files that are gone are lost for good,
 // because data of an invented station have no historical value. A database that is damaged, or
-// belongs to another program, is kept. Settled archives count as changed from then on. Nothing else
-// may use the catalog meanwhile. Errors: those of the directory, and of a remaining database.
+// belongs to another program, is kept. After a removal, settled archives count as changed. Nothing
+// else may use the catalog meanwhile. Errors: those of the directory, and of the databases that are
+// not to be removed. A database that should be removed but cannot be removed is in `kept`.
 [[nodiscard]] Result<ClearReport> clear_unknown(const std::filesystem::path& directory,
                                                 const StationRule& stations);
 

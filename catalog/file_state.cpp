@@ -5,7 +5,8 @@
 namespace stormcellar::catalog {
 namespace {
 
-// In the order of FileState. The databases hold these words: never change one.
+// The words, in the order of FileState. Never change a word, because the databases hold these
+// words.
 constexpr std::array<std::string_view, 5> names = {"seen", "complete", "partial", "rejected",
                                                    "gone"};
 

@@ -72,9 +72,9 @@ std::size_t OpenDatabases::close_idle(std::size_t count) {
     return closed;
 }
 
-// Closes the least recently used database that has no lease, or returns false if there is none.
-// Does not hold `mutex_` meanwhile, because a checkpoint takes milliseconds. A thread that wants
-// this database waits for its slot's mutex and opens it again.
+// Closes the least recently used database that has no lease, or returns false if there is no such
+// database. Does not hold `mutex_` meanwhile, because a checkpoint takes milliseconds. A thread
+// that wants this database waits for the mutex of the slot, and then opens the database again.
 bool OpenDatabases::close_one_idle() {
     Slot* victim = nullptr;
     {

@@ -1,17 +1,17 @@
 // catalog/open_databases.h -- the open databases of a catalog, a limited set that closes the least
-// recently used one first. Used only inside the catalog room.
+// recently used database first. Used only inside the catalog room.
 //
 // An open database takes three descriptors (itself, its WAL and the WAL's index). A thread that
-// uses a database holds a lease and its slot's mutex. Only databases without a lease are closed to
-// make room. If all are leased, the limit is exceeded, by at most one database for each working
-// thread.
+// uses a database holds a lease and the mutex of the database's slot. Only databases without a
+// lease are closed to make room. If all open databases are leased, the limit is exceeded, by at
+// most one database for each working thread.
 //
 // The slot of a closed database takes some 200 bytes. A slot without information is dropped with
 // its last lease, so requests for missing databases leave nothing behind.
 //
-// Cost      A lease takes 0.1 microseconds. Closing a database that was written makes a checkpoint
-//           of its WAL, which is synced: 0.4 ms. Opening it again takes 0.5 ms (medians of 200,
-//           2026-11-25, a shared cloud machine of two cores).
+// Cost      A lease takes 0.1 microseconds. Closing a database that was written takes 0.4 ms,
+//           because its WAL is moved into the database and synced. Opening the database again takes
+//           0.5 ms (medians of 200, 2026-11-25, a shared cloud machine of two cores).
 // Threads   Any thread; a slot's mutex guards what the slot holds.
 #pragma once
 
@@ -46,7 +46,7 @@ enum class Strays : std::uint8_t {
     unknown,
     none,
     some,
-    too_many_rows,  // not searched, because a file would wait for long; mark_missing() does it
+    too_many_rows,  // not searched while a file waits; mark_missing() searches later
 };
 
 // One database of the catalog, which may be open or closed.
@@ -55,22 +55,23 @@ struct Slot {
     std::unique_ptr<StationDatabase> database STORMCELLAR_GUARDED_BY(mutex);
     // The file that was opened last; zeros: none yet.
     FileIdentity file STORMCELLAR_GUARDED_BY(mutex);
-    std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without
+    std::atomic<Strays> strays = Strays::unknown;  // written under the mutex, read without it
 
   private:
     friend class OpenDatabases;
-    // The mutex of OpenDatabases guards these.
+    // The mutex of OpenDatabases guards the members below.
     std::string name_;
     std::size_t leases_ = 0;
     bool is_counted_ = false;
-    std::list<Slot*>::iterator place_;  // in the list of open ones, while it is counted
+    std::list<Slot*>::iterator place_;  // the place in open_ while is_counted_ is true
 };
 
 class OpenDatabases {
   public:
     explicit OpenDatabases(std::size_t most_open) : most_open_(most_open) {}
 
-    // Keeps a slot while this object lives. Others do not close its database to make room.
+    // Keeps a slot while this object lives. Other threads do not close the slot's database to make
+    // room.
     class Lease {
       public:
         Lease(OpenDatabases& all, Slot& slot) : all_(all), slot_(slot) {}

@@ -2,8 +2,8 @@
 // the catalog room.
 //
 // A PathFilter is a Bloom filter of 2 MiB. It always finds a path that was added. After a million
-// additions, it also finds one in 500 other paths; after four million, one in 7. Nothing is ever
-// removed.
+// additions, it also finds one in 500 of the paths that were not added; after four million, one in
+// 7. Paths are never removed.
 //
 // Threads   Any thread.
 #pragma once

@@ -27,18 +27,19 @@ namespace stormcellar::catalog {
 // The name of the database for files of unknown stations.
 inline constexpr std::string_view unknown_station = "_unknown";
 
-// Returns the station with which the file's name begins, or else the name of its directory
-// (KTLX/FILE) or of the directory above (KTLX/123/CHUNK) if it is a station's name, or else
-// unknown_station. With a rule, only stations that it knows count, so that names of files create no
-// databases. The view refers to the bytes of the path or to unknown_station.
+// Returns the station with which the file's name begins. Otherwise returns the name of the file's
+// directory (KTLX/FILE), or of the directory above (KTLX/123/CHUNK), if that is a station's name.
+// Otherwise returns unknown_station. With a rule, only stations that it knows count, so that names
+// of files create no databases. The view refers to the bytes of the path or to unknown_station.
 [[nodiscard]] std::string_view guessed_home(std::string_view path,
                                             const StationRule* rule = nullptr);
 
 class PathHomes {
   public:
-    // Notes that this database has the path. Call it after the row was written there. Returns the
-    // database that had the path before, in which the caller must delete the row. Returns an empty
-    // text if no database had the path, and none if nothing was noted about the path.
+    // Notes that this database has the path. Call it after the row was written to this database.
+    // Returns the database that had the path before, in which the caller must delete the row.
+    // Returns an empty text if no database had the path, and none if nothing was noted about the
+    // path.
     std::optional<std::string> exchange(const std::filesystem::path& path,
                                         const std::string& name) {
         const MutexLock lock(mutex_);
@@ -48,8 +49,8 @@ class PathHomes {
         add(key_of(path), name);
         return before;
     }
-    // Notes that this database has the path. If another database is known to have it, notes nothing
-    // and returns false.
+    // Notes that this database has the path. If another database is known to have the path, notes
+    // nothing and returns false.
     [[nodiscard]] bool set_if_free(const std::filesystem::path& path, const std::string& name) {
         const MutexLock lock(mutex_);
         const std::string* known = find(key_of(path));

@@ -85,7 +85,7 @@ Result<CatalogedBytes> read_cataloged(const CatalogReader& catalog, const Catalo
     }
     if (!opened) return pass_on(opened);
     const Descriptor file{*opened};
-    // Check before reading, because the present file may be far larger.
+    // Check before reading, because a far larger file may have replaced the cataloged one.
     struct stat facts {};
     if (::fstat(file.number(), &facts) != 0) {
         return fail(ErrorCode::io, "{}: its size cannot be read", entry.path.native());

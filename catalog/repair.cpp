@@ -84,8 +84,8 @@ bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-// Returns the first free name for a damaged database. It does not end in .sqlite, so the file no
-// longer counts as a database of the catalog.
+// Returns the first free name for a damaged database. The name does not end in .sqlite, so the file
+// no longer counts as a database of the catalog.
 fs::path name_aside(const fs::path& path) {
     const std::string stem = path.native() + ".damaged-" + format_compact(now_utc());
     fs::path name = stem;
@@ -94,8 +94,8 @@ fs::path name_aside(const fs::path& path) {
     return name;
 }
 
-// Returns the path of the new database until it replaces the damaged one. If there is no damaged
-// database any more, the new one is complete.
+// Returns the path at which the new database is made before it replaces the damaged database. If
+// the damaged database is gone, the new database at this path is complete.
 fs::path mending_of(const fs::path& path) {
     return path.native() + ".mending";
 }

@@ -35,7 +35,7 @@ LentStatement StationDatabase::prepared(const char* sql) {
 std::int64_t StationDatabase::store_volume(std::int64_t file_id, std::uint64_t content_hash,
                                            const VolumeFacts& facts) {
     const std::int64_t start = *milliseconds(facts.start_time);
-    // A volume is the same if another file with the same contents holds it.
+    // If another file with the same contents has this volume, use that volume's row.
     LentStatement same = prepared(
         "SELECT v.id FROM volume v JOIN part p ON p.volume_id = v.id "
         "JOIN file f ON f.id = p.file_id "
@@ -198,8 +198,8 @@ Registered StationDatabase::register_row(const FileFacts& facts) {
     if (!known && !make_room()) return Registered::left_out;
     const std::int64_t file_id = write_file(facts);
     if (facts.state == FileState::gone) may_have_gone_ = true;
-    // Describe the volumes of the file anew, so that a growing file does not become its own
-    // re-send.
+    // Describe the volumes of the file anew, so that a growing file does not count as a second file
+    // with the volumes of its own earlier state.
     if (known) drop_volumes(file_id);
     int ordinal = 0;
     const std::size_t kept = std::min(facts.volumes.size(), most_volumes_a_file);

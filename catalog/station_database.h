@@ -71,8 +71,8 @@ class StationDatabase {
     Registered register_file(const FileFacts& facts);
     // Registers all files in one transaction. Returns the paths for which there was no room.
     std::vector<std::filesystem::path> register_files(const std::vector<FileFacts>& files);
-    // Inserts the rows into a new database in one transaction, unchanged except that their state
-    // becomes `gone`.
+    // Inserts the rows into a new database in one transaction. Sets their state to `gone`, and
+    // changes nothing else in the rows.
     void restore_gone(const std::vector<SalvagedFile>& files);
     // Marks the rows of these files as gone in one transaction. Returns how many rows were marked.
     int mark_gone(const std::vector<std::filesystem::path>& paths);

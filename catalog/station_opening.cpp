@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 // The longest time for which a statement waits for another process's write.
 constexpr int busy_timeout_ms = 10'000;
-// At this many pages, the write-ahead log is transferred to the database, and its file is cut to
-// this size. A registration writes some five pages.
+// At this many pages, the write-ahead log is transferred to the database, and the log's file is cut
+// to this size. A registration writes some five pages.
 constexpr int most_log_pages = 128;
 constexpr int most_log_bytes = 512 << 10;
 // The KiB of pages that a connection keeps in memory. SQLite's default of 2 MB for each of 200
@@ -187,7 +187,7 @@ Result<std::unique_ptr<StationDatabase>> StationDatabase::open_for_writing(const
         if (const auto contents = identify(database, path); !contents) return pass_on(contents);
         enter_wal(database);
         database.exec("PRAGMA synchronous = FULL");
-        // Each open station has its own log, so none may grow to SQLite's default of 4 MB.
+        // Each open station has its own log, so no log may grow to SQLite's default of 4 MB.
         database.exec(fmt::format("PRAGMA wal_autocheckpoint = {}", most_log_pages));
         database.exec(fmt::format("PRAGMA journal_size_limit = {}", most_log_bytes));
         database.exec(fmt::format("PRAGMA cache_size = -{}", most_cached_kib));

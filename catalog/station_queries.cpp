@@ -23,8 +23,8 @@ constexpr const char* entry_columns =
 // index and stops at the limit of a query. Otherwise it may read a whole table.
 constexpr const char* entry_join =
     "FROM volume v CROSS JOIN part p ON p.volume_id = v.id CROSS JOIN file f ON f.id = p.file_id ";
-// This SQL is true for paths that do not name a member of an archive: they have no member_mark, or
-// it is their last character.
+// This SQL is true for paths that do not name a member of an archive: such paths have no
+// member_mark, or end with it.
 constexpr const char* is_no_member = "instr(f.path, x'21') IN (0, length(f.path)) ";
 constexpr const char* columns_without_volume =
     "SELECT f.path, f.size_bytes, f.state, f.reason, f.registered_ms, NULL, NULL, NULL, NULL, 0, "
@@ -171,9 +171,9 @@ std::vector<CatalogEntry> StationDatabase::files_with_prefix(std::string_view pr
                                                              std::size_t most) {
     static const std::string text = std::string{columns_without_volume} +
                                     "WHERE f.path >= ? AND f.path < ? ORDER BY f.path LIMIT ?";
-    // All paths that callers look for are less than this: a digit follows the prefix of a chunk,
-    // and the name of an archive's member in UTF-8 has no byte 0xFF. Only a member whose name
-    // begins with this byte, and so is not UTF-8, is not found.
+    // All paths that callers look for are less than `behind`: a digit follows the prefix of a
+    // chunk, and the name of an archive's member in UTF-8 has no byte 0xFF. Only a member whose
+    // name begins with this byte, and so is not UTF-8, is not found.
     const std::string behind = std::string{prefix} + '\xFF';
     LentStatement rows = prepared(text.c_str());
     rows->bind(1, prefix.data(), static_cast<int>(prefix.size()));

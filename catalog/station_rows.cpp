@@ -1,4 +1,4 @@
-// This file deletes rows of files that are gone, if they are old or to make room.
+// Deletes rows of files that are gone: rows that are too old, and the oldest rows to make room.
 #include <vector>
 
 #include "catalog/station_database.h"
