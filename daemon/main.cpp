@@ -133,8 +133,8 @@ std::filesystem::path socket_of(const FixedConfig& config) {
 
 int serve(const Config& config, const std::filesystem::path& file, bool runs_loops) {
     keep_freed_memory();
-    // Workers need few but large blocks, and hold a lock of malloc for moments only. With an arena
-    // for each, the memory that one worker has freed is of no use to the other.
+    // Workers need few but large blocks, and hold a lock of malloc for moments only. A worker with
+    // an arena of its own could not use the memory that another worker has freed.
     hold_arenas((config.reloadable.worker_count() + 1) / 2);
     cache::install_map_guard();
     raise_descriptor_limit(wanted_descriptors);

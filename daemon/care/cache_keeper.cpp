@@ -15,7 +15,7 @@ std::optional<cache::StoreUsage> CacheKeeper::poll(SteadyTime now, const cache::
     std::optional<cache::StoreUsage> usage;
     if (roll_.valid()) {
         if (roll_.wait_for(std::chrono::seconds{0}) != std::future_status::ready) {
-            // The roll calls `wake` when it ends.
+            // Wait at least a second. The roll calls `wake` when it ends.
             next_ = std::max(next_, now + std::chrono::seconds{1});
             return std::nullopt;
         }

@@ -201,7 +201,7 @@ void Caretaker::refill() {
     refill_frames();
 }
 
-// Makes the frames of mosaics that are missing. Call it after the missing partials were made.
+// Makes the missing frames of mosaics. Call it after the missing partials were made.
 void Caretaker::refill_frames() {
     const auto missing = of_.mender.missing_frames(times_.refill);
     if (!missing) return log_problem("cannot look for missing frames", missing.error());

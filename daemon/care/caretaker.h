@@ -8,7 +8,8 @@
 // caretaker begins no step while jobs wait.
 //
 // Threads   The functions of CareLinks are called from this object's thread and must allow that.
-//           The destructor waits until the present step (one grid or one pair of sites) has ended.
+//           The destructor waits until the step in progress (one grid or one pair of sites) has
+//           ended.
 #pragma once
 
 #include <chrono>

@@ -1,9 +1,10 @@
 // daemon/care/row_keeper.h -- keeps the rows of the catalog in step with the files on disk.
 //
 // After a scan the keeper examines every file that the catalog knows, in a thread of its own, and
-// marks missing files as gone. If there are more rows than the limit allows, it deletes the oldest
-// rows of gone files. If the configuration limits how long rows of gone files are kept, it deletes
-// older rows once an hour. This work takes at most a tenth of the time, however often scans run.
+// marks missing files as gone. If there are more rows than the limit allows, the keeper deletes the
+// oldest rows of gone files. If the configuration limits how long rows of gone files are kept, the
+// keeper deletes the rows beyond that limit once an hour. This work takes at most a tenth of the
+// time, however often scans run.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -25,8 +25,8 @@ class StateKeeper {
     // (pipeline/keep/instance_lock.h).
     [[nodiscard]] Status hold();
     // Returns none while the catalog directory and the lock's file exist. Otherwise returns the
-    // result of hold(). That is bad_argument if another service was started on a new state
-    // directory in the meantime, and so holds the lock.
+    // result of hold(). The error is bad_argument if another service has in the meantime made a new
+    // state directory and locked it.
     [[nodiscard]] std::optional<Status> look();
 
   private:

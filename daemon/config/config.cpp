@@ -36,8 +36,8 @@ std::filesystem::path resolve(const std::filesystem::path& path,
     const std::filesystem::path base = std::filesystem::absolute(file, error).parent_path();
     std::filesystem::path resolved = std::filesystem::weakly_canonical(base / path, error);
     if (error) resolved = (base / path).lexically_normal();
-    // Remove the empty last part of a path such as "a/". With it, the comparison would not find
-    // that "a/b" is within "a/".
+    // Remove the empty last part of a path such as "a/". With the empty part, the comparison would
+    // not find that "a/b" is within "a/".
     if (!resolved.has_filename() && resolved.has_parent_path()) resolved = resolved.parent_path();
     return resolved;
 }
@@ -260,7 +260,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
 }
 
 // Returns the reason why the directory cannot be used for the partials of another machine. Returns
-// an empty text if it can.
+// an empty text if the directory can be used.
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {
@@ -372,8 +372,8 @@ int ReloadableConfig::worker_count() const {
 
 std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConfig& running) {
     std::vector<std::string> sentences;
-    // This does not compile if the configuration gets another part. Then write a sentence for it
-    // below.
+    // This line no longer compiles if FixedConfig gets a further member. Then write a sentence for
+    // that member below.
     const auto& [paths, grid, queue_limit, ingest, storage, status, partials] = fresh;
     if (paths != running.paths) {
         sentences.emplace_back("restart the service for the change of [paths] to take effect");
@@ -413,9 +413,9 @@ Result<Config> load_config(const std::filesystem::path& file, SceneFiles scenes)
     read_log_level(root, config.reloadable.log_level);
     read_status(root.section("status"), file, fixed.paths, fixed.status);
     read_partials(root.section("partials"), file, fixed);
-    root.leave("pull");    // stormcellar-pull checks it
-    root.leave("feed");    // stormcellar-feed checks it
-    root.leave("notify");  // stormcellar-notify checks it
+    root.leave("pull");    // stormcellar-pull checks this table
+    root.leave("feed");    // stormcellar-feed checks this table
+    root.leave("notify");  // stormcellar-notify checks this table
     config.reloadable.loops =
         read_loops(root, std::filesystem::absolute(file).parent_path(),
                    {fixed.paths.drop, fixed.paths.state, fixed.paths.cache}, scenes);

@@ -30,7 +30,7 @@
 
 namespace stormcellar::daemon {
 
-// The limit of the rows of all databases.
+// The default limit of the size of all rows in all databases.
 inline constexpr std::uint64_t default_catalog_bytes = 16'000'000'000;
 
 // Returns the default limits. The file system may be at most 95 % full; bytes and age have no
@@ -63,7 +63,7 @@ struct PathsConfig {
 struct GridConfig {
     std::vector<level2::Moment> moments = {level2::Moment::ref};
     retrieve::Dealiasing dealiasing = retrieve::Dealiasing::automatic;  // for derived moments
-    double quality = 0;  // the least probability of weather of gridded echo; 0: all echo
+    double quality = 0;  // echo is gridded if it is weather with at least this probability
     double spacing_m = 1000;
     int nx = 460, ny = 460;
     std::vector<double> levels_m;           // empty: the default 32
@@ -140,8 +140,9 @@ struct Config {
     bool operator==(const Config&) const = default;
 };
 
-// Returns a sentence for each part of `fresh` that differs from `running`. It names the keys, and
-// says that they need a restart. Returns no sentences if, and only if, `fresh` equals `running`.
+// Returns a sentence for each part of `fresh` that differs from `running`. The sentence names the
+// keys, and says that they need a restart. Returns no sentences if, and only if, `fresh` equals
+// `running`.
 [[nodiscard]] std::vector<std::string> needs_restart(const FixedConfig& fresh,
                                                      const FixedConfig& running);
 

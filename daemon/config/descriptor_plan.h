@@ -17,12 +17,12 @@ struct DescriptorPlan {
     // Limit on growing files, which take one descriptor each. The limit applies twice: to volumes
     // in chunks, and to the last volumes of sites.
     std::size_t growing = 0;
-    // Number of descriptors that are left, at least, for everything else.
+    // The least number of descriptors that are left for everything else.
     std::size_t reserved = 0;
 
     // Divides `limit` descriptors. A limit of 1,024 is enough for the feed of all sites.
     [[nodiscard]] static DescriptorPlan of(std::uint64_t limit);
-    // Divides the present limit of the process, or 1,024 descriptors if the limit is unknown.
+    // Divides the limit that the process has now, or 1,024 descriptors if the limit is unknown.
     [[nodiscard]] static DescriptorPlan of_this_process();
 };
 

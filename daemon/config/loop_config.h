@@ -40,8 +40,8 @@ struct LoopState {
     bool operator==(const LoopState&) const = default;
 };
 
-// Says whether the scene files of loops must exist. A running service accepts a missing file. Then
-// only the loop of that scene stops, and its problem is reported.
+// Says whether the scene files of loops must exist. A running service accepts a missing file: it
+// stops only the loop of that scene, and reports the problem.
 enum class SceneFiles { as_named, must_exist };
 
 // Reads all [[loop]] tables. Reports invalid tables and leaves them out. Relative paths start at
@@ -51,8 +51,8 @@ enum class SceneFiles { as_named, must_exist };
                                                  const std::vector<std::filesystem::path>& apart,
                                                  SceneFiles scenes = SceneFiles::as_named);
 
-// Returns the arguments with which `stormcellar` keeps the loop up to date. It runs as a child of
-// the process `parent`.
+// Returns the arguments with which `stormcellar` keeps the loop up to date. The program runs as a
+// child of the process `parent`.
 [[nodiscard]] std::vector<std::string> arguments_of(const LoopConfig& loop,
                                                     const std::filesystem::path& cache,
                                                     long parent);

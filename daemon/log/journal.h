@@ -3,9 +3,9 @@
 // An entry is one datagram. A field is NAME=value and a newline. If the value contains a newline,
 // the field is NAME, a newline, the value's length (8 bytes, little endian), the value and a
 // newline. If an entry is too long for a datagram, it is written to a sealed memory file, and a
-// datagram sends the descriptor of that file. We do not call sd_journal_sendv(). It always uses the
-// same socket, and it reports success even if nobody listens there, but our caller must then write
-// the line somewhere else.
+// datagram sends the descriptor of that file. We do not call sd_journal_sendv(), because it always
+// uses the same socket and reports success even if nobody listens there. Our caller must learn of a
+// failure, to write the line somewhere else.
 //
 // Threads   send() may be called from any thread.
 // Source    systemd.io/JOURNAL_NATIVE_PROTOCOL, sd_journal_send(3).

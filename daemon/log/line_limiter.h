@@ -1,5 +1,5 @@
 // daemon/log/line_limiter.h -- limits the number of log lines of each kind, so that a hostile or
-// broken feed cannot fill the disk with them.
+// broken feed cannot fill the disk with lines.
 //
 // A kind of line is an event of one subject (a station or a loop). Each kind has a limit, and all
 // subjects of an event share a second limit. Lines over a limit are counted, and the count is
@@ -47,8 +47,8 @@ class LineLimiter {
         LogLevel level;       // the most severe level
         std::uint64_t lines;
     };
-    // Returns the number of lines of each kind that were held back in past minutes, and forgets
-    // these numbers.
+    // Returns how many lines of each kind were held back in past minutes, and forgets these
+    // numbers.
     std::vector<HeldBack> take_held_back(SteadyTime now);
     // Returns the number of remembered subjects.
     [[nodiscard]] std::size_t subjects() const { return each_.size(); }

@@ -7,7 +7,7 @@
 //   STORMCELLAR_VOLUME     ISO 8601 UTC
 //   STORMCELLAR_FILE       unchanged, any bytes
 //   STORMCELLAR_LATENCY_S  from the close of the file until its grids are in the cache
-//   STORMCELLAR_TOOK_S     the work alone
+//   STORMCELLAR_TOOK_S     the time of the work, without waiting
 //   STORMCELLAR_LOOP, STORMCELLAR_DOMAIN
 //   STORMCELLAR_REASON     the kind of an error, as in the metrics
 //   STORMCELLAR_HELD_BACK  number of lines that this line sums up
@@ -80,9 +80,9 @@ inline constexpr LogAt<LogLevel::info> log_info;
 inline constexpr LogAt<LogLevel::warning> log_warning;
 inline constexpr LogAt<LogLevel::error> log_error;
 
-// log_held_back() logs one line for each kind of which lines were held back in minutes that are
-// over; call it every few seconds. log_all_held_back() includes the current minute; call it when
-// the program ends.
+// log_held_back() logs one line for each kind of line that was held back in past minutes; call it
+// every few seconds. log_all_held_back() includes the current minute; call it when the program
+// ends.
 void log_held_back();
 void log_all_held_back();
 

@@ -25,9 +25,9 @@ namespace stormcellar::daemon {
                                  const std::filesystem::path& cache,
                                  std::filesystem::path program = {});
 
-// Returns a warning for each loop that is allowed but at present cannot be written or drawn,
-// because the directory of an output is missing, or because its domain is neither a known station
-// nor one of `domains`. Looks only at the loop's own table, not at its scene. A warning is
+// Returns warnings for loops that are allowed but cannot be written or drawn now. A loop gets a
+// warning if the directory of an output is missing, or if the loop's domain is neither a known
+// station nor one of `domains`. Looks only at the loop's own table, not at its scene. A warning is
 // printable: "[[loop]] NAME: what".
 [[nodiscard]] std::vector<std::string> doubts_about(const std::vector<LoopConfig>& loops,
                                                     const std::vector<pipeline::Domain>& domains);

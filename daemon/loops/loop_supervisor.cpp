@@ -180,7 +180,7 @@ void LoopSupervisor::listen(Slot& slot, SteadyTime now) {
     if (!how.empty()) note_end(slot, how, now);
 }
 
-// Reads a line on the program's output, which is a JSON document about an animation that it made.
+// Reads a line of the program's output: a JSON document about an animation that the program made.
 void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
     const auto document = nlohmann::json::parse(line, nullptr, false);
     if (!document.is_object()) return;
@@ -189,7 +189,7 @@ void LoopSupervisor::note_made(Slot& slot, const std::string& line) {
         return found != document.end() && found->is_number() ? found->get<double>() : 0.0;
     };
     ++slot.state.made;
-    slot.last_line.clear();  // it was about an earlier animation and would not explain a later end
+    slot.last_line.clear();  // a line about this animation does not tell why the program ends later
     slot.state.last_made = now_utc();
     slot.state.frames = static_cast<int>(std::clamp(number("frames"), 0.0, most_frames));
     const double took_s = number("total_s");

@@ -1,14 +1,14 @@
 // daemon/loops/loops_service.h -- a service that only runs the loops of the [[loop]] tables:
 // `stormcellard --loops-only`.
 //
-// The service runs beside a stormcellard that was started with --no-loops, with a lower priority
-// and limits of its own. It reads neither the drop directory nor the catalog nor grids. It runs the
-// loops (daemon/loops/loop_supervisor.h) and publishes their state:
+// The service runs beside a stormcellard that was started with --no-loops. The service has a lower
+// priority, and limits of its own. It reads neither the drop directory nor the catalog nor grids.
+// It runs the loops (daemon/loops/loop_supervisor.h) and publishes their state:
 //   STATE/loops/status.json        {"state","pid","version","started","updated","loops"}, the
 //                                  fields as in daemon/status/status.h; written at most once a
 //                                  second, and at the end
-//   STATE/loops/stormcellard.lock  locked while it runs, so that a state directory has only one
-//                                  keeper of loops
+//   STATE/loops/stormcellard.lock  locked while the service runs, so that a state directory has
+//                                  only one keeper of loops
 // On SIGHUP the service reads the configuration again, and applies only the [[loop]] tables and the
 // log level. It feeds the watchdog unless a turn of the supervisor's thread takes too long.
 //

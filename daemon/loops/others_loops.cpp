@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
-// Sets the value from the key. Leaves the value unchanged if the key is missing or has another
+// Sets the value from the key. Leaves the value unchanged if the key is missing or has the wrong
 // type.
 template <typename Value>
 void take(const Json& object, const char* key, bool (Json::*is_wanted)() const noexcept,

@@ -13,7 +13,8 @@
 namespace stormcellar::daemon {
 
 // Returns the loops of a document that loops_json() wrote; none if the document is invalid. Loops
-// count as running only if the `state` of the document is "running" and its process exists.
+// count as running only if the `state` of the document is "running" and the process named in the
+// document exists.
 [[nodiscard]] std::vector<LoopState> loops_of(std::string_view document);
 
 // Returns each configured loop with its state from STATE/loops/status.json. A loop that the file

@@ -1,9 +1,9 @@
 // daemon/partials/machine_directory.h -- watches for partials in the directory of one machine.
 //
-// A partial is one site's grid for a mosaic. The directory has the layout of a cache. Files with
-// other names, such as temporary files of rsync, are ignored. This class writes nothing into the
-// directory. A partial is "news" until take_news() returns it, and becomes news again when its file
-// is replaced.
+// A partial is one site's grid for a mosaic. The directory has the layout of a cache. Files that
+// are not named like partials, such as temporary files of rsync, are ignored. This class writes
+// nothing into the directory. A partial is "news" until take_news() returns it, and becomes news
+// again when its file is replaced.
 //
 // Threads   One thread at a time.
 #pragma once

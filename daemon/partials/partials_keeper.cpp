@@ -157,8 +157,8 @@ bool PartialsKeeper::take_one() {
     return took;
 }
 
-// Looks at one frame that may lack a partial, and makes it again if it does. Returns true if there
-// was such a frame and this did not fail.
+// Looks at one frame that may lack a partial. If the frame lacks one, makes the frame again.
+// Returns true if there was a frame to look at and nothing failed.
 bool PartialsKeeper::mend_one() {
     if (stopping_ || steady_now() < next_mending_) return false;
     pulse_.beat();

@@ -15,11 +15,11 @@
 //
 // A machine is late if it has brought nothing for `late_after`, or if its newest volume is older by
 // `late_after` than the newest volume of any machine. The log, the status and the metrics report
-// late machines. Frames do not use this; for each frame's instant,
+// late machines. Frames do not depend on these reports; for each frame's instant,
 // pipeline/options/partial_sources.h decides which machines are late.
 //
 // Threads   facts(), scans() and pulse() may be called from any thread. The destructor waits until
-//           the present partial, and the frames with it, are done.
+//           the partial in progress, and its frames, are done.
 #pragma once
 
 #include <atomic>
@@ -63,8 +63,8 @@ class PartialsKeeper {
     ~PartialsKeeper();
 
     [[nodiscard]] std::vector<MachineFacts> facts() const;
-    // Returns how often the directory that was scanned least was scanned. A scan counts once the
-    // turn that made it has ended.
+    // Returns the number of scans of the directory that was scanned least often. A scan counts once
+    // the thread has ended the turn that made the scan.
     [[nodiscard]] std::uint64_t scans() const { return published_scans_; }
     [[nodiscard]] const Pulse& pulse() const { return pulse_; }  // of the object's thread
 

@@ -16,8 +16,9 @@
 
 namespace stormcellar::daemon {
 
-// Takes all pending signals and calls `reload` for each SIGHUP. Any other signal asks the service
-// to end: then logs the signal and returns true. Returns false if `signals` is null.
+// Takes all pending signals and calls `reload` for each SIGHUP. Every other signal asks the service
+// to end; for such a signal, writes a log line and returns true. Returns false if `signals` is
+// null.
 [[nodiscard]] bool take_signals(const Signals* signals, const std::function<void()>& reload);
 
 // Sleeps until a descriptor is ready, the time `until` has come, or a signal arrives. Ignores

@@ -35,7 +35,7 @@ class Readiness {
     // Returns when to check again; none once everything is there.
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // If a check is due, calls the checks until one fails, and returns true. missing() then returns
-    // the message of that error. If no check is due, returns false.
+    // the message of the failed check. If no check is due, returns false.
     bool look(SteadyTime now);
     [[nodiscard]] const std::string& missing() const { return missing_; }
     // Returns true if missing() has changed since this function last returned true. Returns false

@@ -1,11 +1,11 @@
-// daemon/process/silent_file_systems.h -- knows the file systems whose directories can change
+// daemon/process/silent_file_systems.h -- lists the file systems whose directories can change
 // without inotify events ("silent" file systems).
 //
 // The kernel reports changes that this machine makes. It does not see other machines' writes to a
 // shared file system, or changes made by a program behind FUSE, so such directories must be polled.
 // If a file is written directly into a layer of an overlay, below the mount, the kernel does not
 // report that either. But an overlay does not count as silent, because most programs write to its
-// mount; rescans find the other files.
+// mount; rescans find files that are written into a layer.
 //
 // Threads   Pure: may be called from any thread.
 // Source    statfs(2), linux/magic.h, and the headers of the projects in the table.

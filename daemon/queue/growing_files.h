@@ -6,14 +6,15 @@
 // has been unchanged for `settle`, or after `busy` even if it still changes; an empty file is
 // ingested only after `quiet`. An INCOMPLETE file was ingested, but its volume has not ended. If it
 // has changed, it is ingested again when it has been unchanged for `settle`, or after `quiet` even
-// if it still changes. If it has not changed for `quiet`, its volume is finished without its end. A
-// followed file, whose new data are read as they come, has `patience` times as long.
+// if it still changes. If it has not changed for `quiet`, its volume is finished without its end.
+// For a followed file, whose new data are read as they come, this time is `patience` times `quiet`.
 //
 // Changes are found by polling the stamps (time and size) of files. This also works for files that
 // are never closed, and on file systems without events. At most `limit` files are kept. At the
 // limit, a new file takes the place of a file of the station with the most files, if the new file's
-// station has at least two fewer; otherwise the caller leaves the new file to the next scan. This
-// class does no input or output: the caller passes the time (of a monotonic clock) and the stamps.
+// station has at least two files fewer; otherwise the caller leaves the new file to the next scan.
+// This class does no input or output: the caller passes the time (of a monotonic clock) and the
+// stamps.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -54,7 +55,7 @@ class GrowingFiles {
 
     void set_quiet(Duration quiet) { quiet_ = quiet; }
     // Adds a new file, unless it is known already. Returns false if there is no room. `station` is
-    // empty for all unknown stations, which so count as one.
+    // empty for every unknown station, so all of these count as one station.
     bool add_new(const std::filesystem::path& path, const FileStamp& stamp, SteadyTime now,
                  const std::string& station = {});
     // Adds an incomplete file. Replaces what is known about its path. Returns false if there is no
@@ -101,7 +102,7 @@ class GrowingFiles {
     struct File {
         FileStamp looked_at;  // of an incomplete file: its stamp when it was read
         FileStamp last;
-        SteadyTime since;       // when it was added
+        SteadyTime since;       // when the file was added
         SteadyTime changed_at;  // when `last` was first seen
         bool incomplete = false;
         bool followed = false;

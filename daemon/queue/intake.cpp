@@ -93,7 +93,7 @@ void Intake::note_displaced() {
     }
 }
 
-// Makes a job for the file. A followed file is in the catalog since following began.
+// Makes a job for the file. A followed file has been in the catalog since following began.
 Job Intake::job_for(const std::filesystem::path& path, Urgency urgency) const {
     Job job;
     job.path = path;
@@ -164,7 +164,7 @@ void Intake::file_created(const std::filesystem::path& path, const FileStamp& st
 }
 
 void Intake::file_found(const std::filesystem::path& path, const FileStamp& stamp) {
-    if (growing_.contains(path)) return;  // growing_ reads its stamp every second anyway
+    if (growing_.contains(path)) return;  // growing_ reads the stamp every second anyway
     if (seen_.contains(path, stamp)) {
         seen_.found_again(path);
         return;
@@ -183,7 +183,7 @@ void Intake::file_found(const std::filesystem::path& path, const FileStamp& stam
 }
 
 // Queues the file, so that the sink finds it missing and marks its rows. The job is not urgent and
-// comes last. If the schedule refuses it, RowKeeper marks the rows later.
+// comes last. If the schedule refuses the job, RowKeeper marks the rows later.
 void Intake::file_gone(const std::filesystem::path& path) {
     growing_.forget(path);
     followed_.erase(path);
@@ -264,7 +264,7 @@ void Intake::job_failed(const Finished& finished) {
     if (was_last) schedule_.finished(finished.job.path);
     if (was_last || !schedule_.retry(finished.job, finished.ended))
         leave_to_scan(finished.job.path);
-    // A full disk makes all jobs fail, so do not decode the next one yet.
+    // A full disk makes all jobs fail, so do not decode the next file yet.
     if (code == ErrorCode::no_space) {
         schedule_.hold_until(finished.ended + Schedule::retry_delay(finished.job.failures + 1));
     }

@@ -44,8 +44,8 @@ class Intake final : public WatchListener {
     // because the system is short of disk, memory or descriptors do not count.
     static constexpr int most_tries = 8;
 
-    // Delays files that were being ingested when the process last ended. Each waits for the given
-    // time from now, and then comes last in the backlog.
+    // Delays files that were being ingested when the process last ended. Each of these files waits
+    // for the given time from now, and then comes last in the backlog.
     void hold_back(const std::map<std::filesystem::path, std::chrono::seconds>& waits);
     // Applies a reloaded configuration: the waiting times and the number of workers.
     void reload(const ReloadableConfig& config);
@@ -75,7 +75,7 @@ class Intake final : public WatchListener {
     // Offers the growing files that are due to the schedule.
     void poll_growing();
     std::optional<Job> next_job() { return schedule_.next(clock_.steady()); }
-    // Returns a job that has waited for some time and is not in the catalog yet.
+    // Returns a job that has waited for some time, and whose file is not in the catalog yet.
     std::optional<Job> next_unregistered() { return schedule_.next_unregistered(clock_.steady()); }
     void registered(const Finished& noted);
     void job_ended(const Finished& finished);
@@ -117,7 +117,8 @@ class Intake final : public WatchListener {
     void offer(Job job, const FileStamp& stamp);
     void tell(Error problem);
     [[nodiscard]] std::int64_t closed_now_ns();
-    // Returns the station that the path names. Returns an empty text if its data are not accepted.
+    // Returns the station that the path names. Returns an empty text if data of that station are
+    // not accepted.
     [[nodiscard]] std::string station_of(const std::filesystem::path& path) const;
     void job_failed(const Finished& finished);
     void give_next_turn(const Finished& finished);

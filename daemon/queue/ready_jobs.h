@@ -15,8 +15,9 @@
 // Within a class of live jobs, stations take turns: after its turn, a station goes to the end of
 // the line. So no station can hold up another, however much it sends. In the class "going on", the
 // jobs of a station run oldest first, so that the end of a volume comes before sweeps of the next
-// volume. The end is little work, and newest first would make it wait as long as new chunks arrive.
-// All other jobs run newest first. This class only keeps the order; it runs nothing.
+// volume. Ingesting the end is little work. If the newest jobs ran first, the end would wait as
+// long as new chunks arrive. All other jobs run newest first. ReadyJobs only keeps the order; it
+// runs nothing.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -52,7 +53,8 @@ class ReadyJobs {
     void replace(const Key& old, const Key& key, void* job);
     void remove(const Key& key);
     // Removes and returns the next job whose station passes `may_begin` (null: every station).
-    // Returns null if there is none. Looks at no more than most_looked_at jobs of each backlog.
+    // Returns null if there is no such job. Looks at no more than most_looked_at jobs of each
+    // backlog.
     using MayBegin = std::function<bool(const std::string& station)>;
     static constexpr int most_looked_at = 64;
     void* take_next(const MayBegin& may_begin = {});

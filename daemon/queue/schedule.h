@@ -10,12 +10,12 @@
 //
 // Memory is bounded: at most `limit` entries, and a quarter as many files that wait for another
 // attempt. At the limit, a new job takes the place of the least valuable job of the station with
-// the most jobs, if the new job's station has at least two fewer. Otherwise it takes the place of a
-// less valuable job of its own station, or is refused. Jobs of the backlog are the least valuable.
-// Then come, in rising order, files that a scan found, files that an event reported, and volumes
-// that are going on; among equals, the oldest is the least valuable. Once there is room, a scan of
-// the caller finds dropped files again. This class only keeps the order: it runs nothing, and the
-// caller passes the current time.
+// the most jobs, if the new job's station has at least two jobs fewer. Otherwise the new job takes
+// the place of a less valuable job of its own station, or is refused. Jobs of the backlog are the
+// least valuable. Then come, in rising order, files that a scan found, files that an event
+// reported, and volumes that are going on; among equals, the oldest is the least valuable. Once
+// there is room, a scan of the caller finds dropped files again. This class only keeps the order:
+// it runs nothing, and the caller passes the current time.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -71,8 +71,8 @@ class Schedule {
     // Returns the first job that may run now. The job counts as running until finished() or retry()
     // is called for it.
     std::optional<Job> next(SteadyTime now);
-    // Returns the job that has waited longest without being registered, if that is at least
-    // `register_after`. The job counts as running until registered() is called for it.
+    // Returns the job that has waited longest without being registered, if it has waited for at
+    // least `register_after`. The job counts as running until registered() is called for it.
     std::optional<Job> next_unregistered(SteadyTime now);
     // Puts back a job that next_unregistered() returned, so that it can run. next_unregistered()
     // does not return it again, even if the attempt to register it failed.
@@ -107,8 +107,8 @@ class Schedule {
     [[nodiscard]] std::optional<SteadyTime> next_time() const;
     // Returns when the next job must be registered; none if all are registered.
     [[nodiscard]] std::optional<SteadyTime> next_unregistered_time() const;
-    // Returns when the job that has waited longest began to wait, among the waiting jobs that may
-    // run now; none if there is no such job.
+    // Looks at the waiting jobs that may run now, and returns when the first of these began to
+    // wait; none if there is no such job.
     [[nodiscard]] std::optional<SteadyTime> oldest_offer() const;
     // Returns how long the live job waited that next() returned last.
     [[nodiscard]] SteadyTime::duration last_wait() const { return last_wait_; }
@@ -150,7 +150,7 @@ class Schedule {
     void claim(const Entry& entry);
     void unclaim(const Entry& entry);
     // Drops a waiting job that is less valuable than `job`, as described above. Returns false if
-    // there is none.
+    // there is no such job.
     bool make_room_for(const Job& job);
     void drop_waiting(Entry& entry);
     static void merge(Job& into, const Job& job);

@@ -1,11 +1,11 @@
 // daemon/queue/tried_files.h -- remembers which files were being ingested when the process ended.
 //
-// A file may kill the process, because it takes all memory or triggers a fault. It would do so
-// again at each start, until systemd no longer starts the service. So a path is recorded before its
-// file is opened, and removed when the file has been processed. After a start, the files that are
-// still recorded wait: 2 s after the process has ended once, then 8 s, 32 s and so on up to 512 s.
-// Among files with the same number of ends, each waits 10 s longer than the one before it. After
-// `most_ends` ends, a file is not opened again until its size or its time has changed.
+// A file may kill the process, because it takes all memory or triggers a fault. It would kill the
+// new process after each start, until systemd no longer starts the service. So a path is recorded
+// before its file is opened, and removed when the file has been processed. After a start, the files
+// that are still recorded wait: 2 s after the process has ended once, then 8 s, 32 s and so on up
+// to 512 s. Among files with the same number of ends, each waits 10 s longer than the file before
+// it. After `most_ends` ends, a file is not opened again until its size or its time has changed.
 //
 // The list need not survive a power cut, so no write waits for the disk. Each ingested file costs
 // two writes of some hundred bytes. If the list is missing, no file is held back.

@@ -5,9 +5,9 @@
 // its files was gridded or showed a sweep within the last hour, and if its debt is at most two
 // seconds. Each job adds the time that it took to the debt of its station. The debt decreases by a
 // fifth of a second each second. (A site of a real feed takes half a second every five minutes.)
-// All other stations together use at most all workers but one, and so does a single light station.
-// If there is only one worker, it serves every station. All unknown stations count as one station,
-// which is never light. This class only counts; it runs nothing.
+// All other stations together use at most all workers but one. A single light station also uses at
+// most all workers but one. If there is only one worker, it serves every station. All unknown
+// stations count as one station, which is never light. This class only counts; it runs nothing.
 //
 // Threads   One thread at a time.
 #pragma once

@@ -37,7 +37,7 @@ class WorkerPool {
     ~WorkerPool();  // waits for the running jobs
 
     // Changes the number of workers. Additional threads start at once. Surplus threads end after
-    // their present job.
+    // their current jobs.
     void resize(int workers);
     [[nodiscard]] bool has_free_worker() const;
     void submit(Job job);  // call it only if a worker is free

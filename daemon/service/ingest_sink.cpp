@@ -68,7 +68,7 @@ pipeline::IngestOptions IngestSink::options_of(const FixedConfig& config) const 
     options.living.chunk_timeout = config.ingest.chunk_timeout;
     options.living.chunk_grace = config.ingest.chunk_grace;
     options.living.count = growing_;
-    // This is much less than the time after which the watchdog assumes that a step hangs.
+    // A turn is much shorter than the time after which the watchdog assumes that a step hangs.
     options.archive_turn = std::chrono::seconds{20};
     options.living.load = [load = load_] { return load->load(); };
     return options;
@@ -151,7 +151,7 @@ Result<Taken> IngestSink::take(const std::filesystem::path& path, bool finish_as
     const FileFound found = look_at(path, drop_);
     taken.stamp = found.stamp;
     if (found.standing == Standing::directory || found.standing == Standing::other) {
-        // The file that now has this name is another one.
+        // Another file has this name now.
         taken.ingest.ending = pipeline::ended::Vanished{};
         return taken;
     }

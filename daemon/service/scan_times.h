@@ -1,8 +1,9 @@
 // daemon/service/scan_times.h -- decides when the drop directory is scanned.
 //
-// Scans take at most about a tenth of the time, however often they are requested. A regular scan
-// runs every rescan_seconds. If some directories give the watcher no events, further scans (polls)
-// run in between. Thread contract: one thread.
+// After each scan comes a rest of ten times the scan's length (but at least 0.1 s), so scans take
+// at most about a tenth of the time, however often they are requested. A regular scan runs every
+// rescan_seconds. If some directories give the watcher no events, further scans (polls) run in
+// between. Thread contract: one thread.
 #pragma once
 
 #include <algorithm>

@@ -27,7 +27,8 @@ constexpr std::chrono::milliseconds most_live_wait{100};
 
 // Returns how many bytes of free memory the process keeps for reuse; it gives further free memory
 // back to the system. Decoding and gridding volumes one after another leaves less free memory than
-// this. With less than that, a tenth of the time goes into new pages for each volume.
+// this. If the process kept too little, a tenth of the time would go into new pages for each
+// volume.
 constexpr std::size_t most_kept_bytes(int workers) {
     return (32 + 64 * static_cast<std::size_t>(workers)) << 20U;
 }

@@ -52,7 +52,7 @@
 
 namespace stormcellar::daemon {
 
-// The parts of the service. All must outlive it.
+// The parts of the service. All must outlive the Service.
 struct ServiceParts {
     Sink& sink;
     EventSource& events;
@@ -60,7 +60,7 @@ struct ServiceParts {
     FileSystem& file_system;
     const Signals* signals = nullptr;  // null: only request_stop() ends the service
     Clock clock = real_clock();
-    bool runs_loops = true;  // false: another process runs them (daemon/loops/loops_service.h)
+    bool runs_loops = true;        // false: another process does (daemon/loops/loops_service.h)
     StatusBoard* board = nullptr;  // null: the status is published only in its file
     // Null: if the state directory is deleted, it is not made again.
     StateKeeper* state = nullptr;

@@ -1,5 +1,5 @@
 // daemon/service/troubles.h -- watches for troubles that may last for a while. The log reports most
-// of them when they begin and when they are over; the status shows a trouble as long as it lasts.
+// troubles when they begin and when they are over; the status shows a trouble as long as it lasts.
 //
 // Each class remembers whether the log has reported its trouble. The service may call look() at
 // every turn, because each class limits how often it really checks. Thread contract: the service's
@@ -65,7 +65,7 @@ class BacklogTrouble {
 };
 
 // The trouble that two processes run the same loops. If only another process runs the loops, look()
-// copies the state that this process reports into the status.
+// copies the state that the other process reports into the status.
 class OthersLoops {
   public:
     // Returns true if the status changed. `runs_loops` is true if this process runs loops.

@@ -15,7 +15,8 @@ namespace {
 // Memory for the line and the headers of a request, and for the headers of its answer.
 constexpr std::size_t request_memory = 8192;
 
-// Checks every Host field of a request, because a client that sends two may mean either.
+// Checks every Host field of a request, because a client that sends two fields may mean either of
+// the two.
 MHD_Result look_at_host(void* are_ours, MHD_ValueKind, const char* name, const char* value) {
     if (name != nullptr && ::strcasecmp(name, MHD_HTTP_HEADER_HOST) == 0 &&
         !is_loopback_host(value == nullptr ? "" : value)) {
@@ -125,8 +126,8 @@ void HttpListener::turn(SteadyTime now) {
         open.is_cut = true;
     }
     // A run of libmicrohttpd accepts only a few new connections, and none at the limit. Connections
-    // that end in a run make room only for the next run, and no descriptor signals that. So run it
-    // until nothing changes.
+    // that end in a run make room only for the next run, and no descriptor signals this room. So
+    // run libmicrohttpd until nothing changes.
     is_behind_ = true;
     for (int round = 0; is_behind_ && round < most_rounds; ++round) {
         const std::uint64_t before = changes_;

@@ -1,6 +1,5 @@
-// daemon/status/rejected_paths.h -- remembers which files were rejected and why. A file that is
-// ingested repeatedly, for example each time something is appended, is so counted and logged only
-// once.
+// daemon/status/rejected_paths.h -- remembers which files were rejected and why. So if a file is
+// ingested each time something is appended, it is counted and logged only once.
 //
 // Two reasons are the same if the kind of error is the same and the texts differ only in their
 // digits, which may show a growing size. At most `most` paths are remembered, as hashes, in about
@@ -33,7 +32,7 @@ class RejectedPaths {
   private:
     std::size_t most_;
     std::unordered_map<std::uint64_t, std::uint64_t> reasons_;  // by path
-    std::deque<std::uint64_t> order_;  // hashes of paths, oldest first; may have forgotten paths
+    std::deque<std::uint64_t> order_;  // hashes of paths, oldest first; also of forgotten paths
 };
 
 }  // namespace stormcellar::daemon

@@ -48,7 +48,8 @@ struct StationState {
     Timings close_to_cache{128};
     // Number of grids of volumes that had not ended; each update counts.
     std::uint64_t living = 0;
-    Timings close_to_living{128};  // from the close of the file that completed a sweep to its grid
+    // From the close of the file that completed a sweep to the grid of the sweep.
+    Timings close_to_living{128};
     Timings antenna_to_cache{128};
     std::optional<double> last_antenna_s;  // the last value, even if it is not live
     std::uint64_t not_live = 0;            // volumes that antenna_to_cache leaves out

@@ -3,7 +3,7 @@
 // The status is rendered as JSON (status_json.h) for STATE/status.json and the status server, and
 // as Prometheus text (metrics_text.h).
 //
-// Threads   One thread at a time; StatusFacts is plain data that may be copied to others.
+// Threads   One thread at a time; StatusFacts is plain data that may be copied to other threads.
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ struct RejectedFile {
 
 struct StatusFacts {
     std::filesystem::path drop, cache, socket;  // socket: empty if there is none
-    std::string drop_lost;  // why the drop directory cannot be read; empty: it can
+    std::string drop_lost;  // why the drop directory cannot be read; empty: it can be read
     Unreadable unreadable;  // directories below `drop` that cannot be read
     int http_port = 0;      // 0: none
     UtcTime started = now_utc();
@@ -84,8 +84,8 @@ struct StatusFacts {
     Timings close_to_living{4096};     // from the close of the chunk that completed a sweep
     Timings antenna_to_cache{4096};    // of data that can be live
     std::uint64_t not_live = 0;        // volumes that antenna_to_cache leaves out
-    std::deque<RecentVolume> volumes;  // the last 64, oldest first; so is rejected_files
-    std::deque<RejectedFile> rejected_files;  // each path once
+    std::deque<RecentVolume> volumes;  // the last 64, oldest first
+    std::deque<RejectedFile> rejected_files;  // the last 64, oldest first, each path once
     StationBook stations;
     std::map<std::array<std::string, 3>, pipeline::PairReport> sites;  // by domain, a, b
     std::vector<MachineFacts> machines;  // machines that bring partials of mosaics
@@ -126,7 +126,8 @@ class StatusBook {
     // Returns the text for systemd's STATUS=, such as "ingested 12 (latest KTLX
     // 2022-03-17T00:08:42Z), rejected 1, waiting 3, running 2, growing 0". If the drop directory
     // cannot be read, the text begins with "waiting for the drop directory DIR: WHY; ". If only
-    // directories below it cannot be read, it begins with "cannot read N directories; ".
+    // directories below the drop directory cannot be read, the text begins with "cannot read N
+    // directories; ".
     [[nodiscard]] std::string line(const Pending& pending) const;
     [[nodiscard]] std::uint64_t ingested() const { return facts_.ingested; }
 

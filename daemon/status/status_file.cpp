@@ -17,7 +17,7 @@ StatusFile::StatusFile(FileSystem& file_system, const std::filesystem::path& dir
       notifier_(notifier) {}
 
 Status StatusFile::write(const std::string& text) {
-    // A daemon that was killed while writing may have left it.
+    // A daemon that was killed while writing may have left this file.
     (void)file_system_.remove(temporary_);
     const Result<int> descriptor = file_system_.create_exclusive(temporary_);
     if (!descriptor) return pass_on(descriptor);

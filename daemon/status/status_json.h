@@ -39,14 +39,15 @@
 //                  "pinned", "bytes", "budget_bytes" (null: no limit), "evicted", "evicted_bytes",
 //                  "not_kept"}; the last three count since the start; not_kept: grids that were not
 //                  stored, because they were older than the grids that the budgets keep
-//   catalog        {"stations": the rule ("known", "any" or "listed"), "further": other stations
-//                  that "any" has accepted, "most_further": their limit, "left_alone" and
-//                  "some_left_alone": the number and first names of databases of stations that the
-//                  rule does not accept, "troubles": [{"station", "reason"}] of unusable databases}
+//   catalog        {"stations": the rule ("known", "any" or "listed"), "further": stations beyond
+//                  the station table that "any" has accepted, "most_further": the limit of their
+//                  number, "left_alone" and "some_left_alone": the number and first names of
+//                  databases of stations that the rule does not accept, "troubles": [{"station",
+//                  "reason"}] of unusable databases}
 //   latency_s      {"count", "median", "p95", "max"}: seconds from the close (or rename) of a file
 //                  to its grids in the cache, waiting included, over the last 4096 ingested files
-//                  whose close was seen; files found by a scan have none. The values are null if
-//                  count is 0
+//                  whose close was seen; files found by a scan have no latency. The values are null
+//                  if count is 0
 //   sweep_latency_s  like latency_s, but from the close of the file that completed a sweep to the
 //                    living grid that shows the sweep
 //   antenna_to_cache_s  like latency_s, but from the newest radial of a volume to its grids in the

@@ -5,15 +5,15 @@
 //   GET /status.json   status_json.h
 // All other requests give 404, 405 or 400. Each answer ends its connection. On a port, a request
 // gives 421 if its Host is not a name of the loopback addresses (http_listener.h); on the socket
-// every Host is accepted. Answers forbid caching, and guessing of the content type. libmicrohttpd
-// answers invalid HTTP (400, 413, 414, 431) itself, with fixed texts and without these header
-// fields.
+// every Host is accepted. Header fields of answers forbid caching, and guessing of the content
+// type. libmicrohttpd answers invalid HTTP (400, 413, 414, 431) itself, with fixed texts and
+// without these header fields.
 //
 // The server has one thread with a lower priority. Hostile clients do no harm: the number of
 // connections is limited, a connection ends after 10 seconds at the latest (sooner if many more
-// arrive), a request has at most a few KiB, and a page is rendered at most five times a second. An
-// address that cannot be opened is logged once and tried again. A socket whose path was removed is
-// opened again. A path that is too long for a socket is logged and not tried again.
+// connections arrive), a request has at most a few KiB, and a page is rendered at most five times a
+// second. An address that cannot be opened is logged once and tried again. A socket whose path was
+// removed is opened again. A path that is too long for a socket is logged and not tried again.
 //
 // Threads   One thread makes and destroys the server. `render` is called from the server's own
 //           thread.

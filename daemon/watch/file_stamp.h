@@ -15,7 +15,7 @@ struct FileStamp {
     std::uint64_t inode = 0;
     std::uint64_t size_bytes = 0;
     std::int64_t modified_ns = 0;  // since the epoch
-    // Last change of permissions or owner. With it, a file counts as changed when it becomes
+    // Last change of permissions or owner. It makes a file count as changed when the file becomes
     // readable.
     std::int64_t changed_ns = 0;
 

@@ -24,8 +24,8 @@ inline constexpr std::size_t most_path_bytes = 1024;  // a path must be shorter
 inline constexpr int entries_a_step = 128;
 
 struct WalkVisitor {
-    // Called before the entries of the directory are read. If it sets a watch, no later entry is
-    // missed.
+    // Called before the entries of the directory are read. If this call sets a watch, no later
+    // entry is missed.
     std::function<void(const std::filesystem::path&)> directory;
     std::function<void(const std::filesystem::path&, const FileStamp&)> file;
     // Reports a directory that cannot be read or is too deep (unsupported). Also reports the first

@@ -26,8 +26,8 @@ struct Unreadable {
 
 // Return the end of a sentence that says how to make a directory readable to the service; empty if
 // no remedy is known. remedy_for() is for the drop directory itself, which the unit of systemd may
-// hide (ProtectHome=). remedy_below() is for directories below it, for which the service may lack a
-// group.
+// hide (ProtectHome=). remedy_below() is for directories below the drop directory, for which the
+// service may lack a group.
 [[nodiscard]] std::string remedy_for(const std::filesystem::path& drop, ErrorCode code);
 [[nodiscard]] std::string remedy_below(ErrorCode code);
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr int events_a_step = 32;
 // Limit of the time that the thread owes for reading directories that come or go. The debt
-// decreases by a tenth of a second each second. Beyond the limit, such directories are left to the
-// next scan.
+// decreases by a tenth of a second each second. Beyond the limit, directories that come or go are
+// left to the next scan.
 constexpr double most_owed_s = 0.2;
 constexpr double paid_back_each_second = 0.1;
 

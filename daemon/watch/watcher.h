@@ -70,8 +70,8 @@ class Watcher {
     // Sets a function that scan() and read_events() call now and then while they have much to do.
     // At each of these calls, scan() also reads events.
     void on_step(std::function<void()> step) { step_ = std::move(step); }
-    // Watches everything below the drop directory, and reports it. Fails if the drop directory
-    // cannot be read.
+    // Watches the drop directory and all directories below it, and reports what they contain. Fails
+    // if the drop directory cannot be read.
     [[nodiscard]] Status scan();
     // Handles the waiting events, but no more than one EventSource::read() returns.
     void read_events();
