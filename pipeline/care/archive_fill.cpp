@@ -78,7 +78,7 @@ std::string key_of(const std::filesystem::path& path) {
     return chunk ? chunk->key : path.native();
 }
 
-// Checks that files are still the files of these volumes that the catalog knows.
+// Checks that the files of some volumes are still the files that the catalog knows.
 class CatalogedFiles {
   public:
     CatalogedFiles(const catalog::CatalogReader& catalog, const std::vector<ArchiveVolume>& volumes)
@@ -223,8 +223,8 @@ std::string ArchiveFill::domain_of(const ArchiveVolume& volume) const {
 }
 
 // Returns true if the cache has the grid of the volume. A grid remains valid after its raw file was
-// deleted. But if the raw file's modification time is later than the grid's, the raw file is
-// another file.
+// deleted. But if the raw file's modification time is later than the grid's, the raw file was
+// replaced.
 Result<bool> ArchiveFill::stands(const ArchiveVolume& volume) const {
     const auto path = store_.path_of(domain_of(volume), options_.moment, volume.start);
     if (!path) return pass_on(path);

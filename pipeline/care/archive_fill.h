@@ -4,12 +4,12 @@
 // The chain that the daemon uses (pipeline/ingest/ingest.h) reads, grids and commits the volumes,
 // several at a time. For a domain, the partials (grids of single sites) are made first, and then
 // each frame (the merged grid of an instant), once (pipeline/mosaic/mosaic_maker.h). A grid that
-// the cache already has is kept if it was made from the present file and has the requested grid
-// spec. A frame is kept if it was made from the present partials by the present rules. So a second
-// call continues where the first one ended, even after a crash, because grids appear whole. The
-// report names the files that are left out: files that are gone, have nothing to grid, or have
-// changed since they were cataloged (stormcellar/catalog/read_cataloged.h). Open the store so that
-// nobody else writes to it.
+// the cache already has is kept if its raw file has not changed since and the grid has the
+// requested grid spec. A frame is kept if neither its partials nor the rules for frames have
+// changed since it was made. So a second call continues where the first call ended, even after a
+// crash, because each grid is written whole or not at all. The report names the files that are left
+// out: files that are gone, have nothing to grid, or have changed since they were cataloged
+// (stormcellar/catalog/read_cataloged.h). Open the store so that nobody else writes to it.
 //
 // Memory    As many decoded volumes as there are workers (at most most_workers), and their grids.
 // Threads   One thread at a time may use an ArchiveFill. `progress` is called from its workers, one
@@ -64,7 +64,7 @@ struct FillReport {
 
 using FillProgress = std::function<void(std::size_t done)>;
 
-// Returns the options with which the chain makes the grids of such a cache.
+// Returns the options with which the chain makes grids for these options of an archive.
 [[nodiscard]] IngestOptions ingest_options(const ArchiveOptions& options);
 // Returns true if the provenance of a grid tells of the quality, the storm motion, the assumed
 // height of 0 C and the rung of dealiasing that these options give. The notes of VELD do not name
@@ -73,7 +73,7 @@ using FillProgress = std::function<void(std::size_t done)>;
 [[nodiscard]] bool is_derived_as(const retrieve::DerivedOptions& options,
                                  const cache::GridDescription& description);
 // Returns true if the grid of a volume has the shape and place that these options give, and is
-// derived as they say.
+// derived as the options say.
 [[nodiscard]] bool is_of_grid(const ArchiveOptions& options,
                               const cache::GridDescription& description);
 // Returns the reason why the chain made no grid from a file.

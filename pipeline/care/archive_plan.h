@@ -37,10 +37,10 @@ struct ArchivePlan {
 // HOME is not an absolute path, either.
 [[nodiscard]] Result<std::filesystem::path> loops_directory();
 
-// Returns a directory in loops_directory() for the plan's grids. Its name contains a hash of
-// everything that determines them: catalog, stations, grid, moment, its derivation, rules and the
-// version of this software. A plan without a mosaic must have a station. Errors: those of
-// loops_directory().
+// Returns a directory in loops_directory() for the plan's grids. The directory's name contains a
+// hash of everything that determines the grids: catalog, stations, grid, moment, the derivation of
+// the moment, rules and the version of this software. A plan without a mosaic must have a station.
+// Errors: those of loops_directory().
 [[nodiscard]] Result<std::filesystem::path> private_cache(const std::filesystem::path& catalog,
                                                           level2::Moment moment,
                                                           const ArchivePlan& plan);

@@ -37,8 +37,8 @@ std::optional<Finding> look_at(const fs::path& path, MendDepth depth) {
 }
 
 // Returns true if the grid is damaged. If reading an open file failed, the grid counts as damaged
-// only if it can be made again from a source. If opening failed, it does not count, because the
-// system may have no descriptors left.
+// only if it can be made again from a source. If opening failed, the grid does not count as
+// damaged, because the system may have no descriptors left.
 bool is_damage(const Finding& found, bool has_source) {
     const ErrorCode code = found.error.code;
     return code == ErrorCode::corrupt || code == ErrorCode::truncated ||
@@ -110,7 +110,7 @@ std::string CacheMender::why_not_again(const std::string& station, UtcTime time)
 
 Result<MendedGrid> CacheMender::mend(const cache::StoreEntry& entry, MendDepth depth) {
     const auto found = look_at(entry.path, depth);
-    // If there is no error, the grid is sound. If it is gone, it was evicted in the meantime.
+    // If there is no error, the grid is sound. If the grid is gone, it was evicted in the meantime.
     if (!found || found->error.code == ErrorCode::not_found) return MendedGrid{};
     const MosaicMaker& mosaics = ingestor_.mosaics();
     if (mosaics.find(entry.domain, entry.moment) != nullptr) {

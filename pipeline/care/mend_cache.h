@@ -1,7 +1,7 @@
 // pipeline/care/mend_cache.h -- makes damaged and missing grids again.
 //
-// A grid is damaged if another program truncated or altered it, or if the disk cannot return it. If
-// the grid is a site's own grid or a partial of a mosaic (NAME.ICAO), it is removed and made again
+// A grid is damaged if another program truncated or altered it, or if the disk cannot return it. A
+// damaged grid of a site, or a damaged partial of a mosaic (NAME.ICAO), is removed and made again
 // from the raw file, if the raw file is still as it was cataloged. A frame of a mosaic is made
 // again from its partials. A damaged grid that cannot be made again is removed, unless a failing
 // disk is the only sign of damage.
@@ -59,8 +59,8 @@ enum class MendDepth {
 
 class CacheMender {
   public:
-    // The catalog, the store and the ingestor must outlive the object. `moments` are the moments of
-    // which the ingestor makes the sites' own grids.
+    // The catalog, the store and the ingestor must outlive the object. `moments` are the moments
+    // for which the ingestor makes the sites' own grids.
     CacheMender(const catalog::CatalogReader& catalog, cache::StoreWriter& store,
                 Ingestor& ingestor, std::vector<level2::Moment> moments);
 

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 // Directories are searched to this depth, as the daemon does.
 constexpr int max_depth = 16;
 
-// Returns true if a file may hold volumes of the station. It may, unless its name or the name of
-// its directory is another station's.
+// Returns true if a file may hold volumes of the station: neither the file nor its directory has
+// the name of another station.
 bool may_be_of(const fs::path& path, const std::string& station) {
     if (station.empty()) return true;
     const std::string by_name = station_of_file_name(path);

@@ -1,9 +1,10 @@
 // pipeline/drop/archive_volumes.h -- finds the raw files of a catalog that belong to a time range.
 //
-// For each station these are the volumes that overlap the range. On request, they include its
-// neighbors, which are the last volume before the range and the first volume after it, if they are
-// close enough for a frame between volumes. If several files have the same volume, one file is
-// used: existing files are preferred, then complete ones, then the one with the highest generation.
+// For each station, the result has the volumes that overlap the range and, on request, the
+// neighbors of the range: the last volume before it and the first volume after it. A neighbor
+// counts only if it is close enough for a frame between volumes. If several files have the same
+// volume, one file is used: existing files are preferred, then complete ones, then the one with the
+// highest generation.
 //
 // Threads   Functions without state; the catalog is only read.
 #pragma once
@@ -43,7 +44,7 @@ inline constexpr std::chrono::minutes farthest_neighbour{25};
 
 // Returns the volumes in the order of `stations`, then by start. A station that the catalog does
 // not have gives no volumes. If several stations are requested, a station whose database cannot be
-// read gives none, either; the catalog's troubles() names such stations. Errors: those of the
+// read gives no volumes, either; the catalog's troubles() names such stations. Errors: those of the
 // catalog.
 [[nodiscard]] Result<std::vector<ArchiveVolume>> archive_volumes(
     const catalog::CatalogReader& catalog, const std::vector<std::string>& stations,

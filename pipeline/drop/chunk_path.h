@@ -1,7 +1,7 @@
 // pipeline/drop/chunk_path.h -- finds the files that are the chunks of one volume.
 //
-// They are the files of one directory whose names differ only in the number and the kind of the
-// chunk (stormcellar/level2/chunk_name.h).
+// The chunks of one volume are the files of one directory whose names differ only in the number and
+// the kind of the chunk (stormcellar/level2/chunk_name.h).
 //
 // Threads   The functions have no state. They read the directory.
 #pragma once

@@ -21,7 +21,8 @@ namespace stormcellar::pipeline {
 // Returns the station in the file's name (station_in_name()), or an empty text.
 [[nodiscard]] std::string station_of_file_name(const std::filesystem::path& path);
 // Returns the station in the file's name, else the station in the name of its directory, else the
-// station in the name of the directory above. Returns an empty text if none of these has one.
+// station in the name of the directory above. Returns an empty text if none of these names has a
+// station.
 [[nodiscard]] std::string station_of_path(const std::filesystem::path& path);
 // Returns true if the file's name is the name of a chunk.
 [[nodiscard]] bool is_chunk_name(const std::filesystem::path& path);

@@ -2,8 +2,9 @@
 // the pipeline room.
 //
 // A file of ordinary size is read into memory and then decoded by several threads. A large file is
-// decoded stretch by stretch while it is read, so that its size costs no memory. Both ways give the
-// same volume, bit for bit, except for files that stormcellar/level2/growing_volume.h refuses.
+// decoded stretch by stretch while it is read, so that a large file needs no more memory. Both
+// methods give the same volume, bit for bit, except for files that
+// stormcellar/level2/growing_volume.h refuses.
 //
 // Threads   A function without state.
 #pragma once

@@ -12,7 +12,7 @@
 namespace stormcellar::pipeline {
 
 // Returns the position of a station from the station table, or else from its newest four files that
-// are not gone. Returns none if neither has it.
+// are not gone. Returns none if neither the table nor these files have a position.
 [[nodiscard]] std::optional<grid::SitePosition> place_of_station(
     const catalog::CatalogReader& catalog, const std::string& icao);
 

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 // A file above this size is not a chunk. Real chunks have less than a hundredth of it.
 constexpr std::uint64_t most_chunk_bytes = std::uint64_t{32} << 20;
 // A job that reads further chunks stops after this many bytes, or after this many files that turn
-// out not to belong to the volume. The remaining chunks are read by their own jobs.
+// out not to belong to the volume. Chunks that the job has not read are read by their own jobs.
 constexpr std::uint64_t most_read_at_once = std::uint64_t{64} << 20;
 constexpr std::size_t most_refused_at_once = 4;
 constexpr std::chrono::minutes longest_failing{2};
@@ -34,8 +34,7 @@ class ShelfDepot final : public level2::SweepDepot {
     }
     Result<level2::Sweep> get(std::uint64_t place) const override {
         auto sweep = shelf_.get(places_.at(place));
-        // Whatever the code of this error is, the files are not to blame, because they have not
-        // changed.
+        // Return io, whatever the error of the shelf is, because the files are not to blame.
         if (!sweep) return fail(ErrorCode::io, "{}", sweep.error().message);
         return sweep;
     }

@@ -29,7 +29,7 @@ class ChunkVolume {
     enum class Added : std::uint8_t {
         added,       // the volume has the chunk, from this call or an earlier one
         unfinished,  // the file holds no complete chunk yet
-        not_ours,    // despite its name, no chunk of this volume: ingest it otherwise
+        not_ours,    // despite its name, no chunk of this volume: ingest it as another kind
     };
     // Adds the chunk. Does not read its file if it was read before with the same stamp. Errors: io
     // or no_space if the file cannot be read now, for example because descriptors or memory ran
@@ -48,7 +48,7 @@ class ChunkVolume {
 
     // Returns true if the volume has a representative that held a complete chunk when it was last
     // read. The representative is the one file that is polled for the volume while nothing comes.
-    // It is the chunk that was added last, unless set_representative() named another.
+    // It is the chunk that was added last, unless set_representative() named another file.
     [[nodiscard]] bool has_representative() const;
     // Returns true if this file is the representative and held a complete chunk when it was last
     // read.
@@ -95,7 +95,7 @@ class ChunkVolume {
     [[nodiscard]] std::string station() const { return live_.facts().station; }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // Keeps the VELD of the complete volume, which finish() returned, with its sweeps.
+    // Keeps the VELD of `dealiased`, the complete volume that finish() returned, with the sweeps.
     void keep_dealiased(const level2::Volume& dealiased);
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }
 
@@ -122,7 +122,8 @@ class ChunkVolume {
     level2::LiveVolume live_;
     std::map<std::filesystem::path, File> files_;
     std::uint64_t read_bytes_ = 0;
-    // The number of radials of each complete sweep, by cut; and the time of the newest of them.
+    // The number of radials of each complete sweep, by cut; and the time of the newest of these
+    // sweeps.
     std::map<std::size_t, std::size_t> radial_counts_;
     std::optional<UtcTime> newest_radial_;
     // Files that were read and are not chunks of this volume, with their stamps.

@@ -9,7 +9,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Limit of the volumes without a place that are remembered. Beyond it, all of them are forgotten.
+// Limit of the remembered volumes without a place. Beyond the limit, all of these are forgotten.
 constexpr std::size_t most_representatives = 4096;
 
 }  // namespace

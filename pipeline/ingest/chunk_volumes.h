@@ -32,7 +32,7 @@ class ChunkVolumes {
         : options_(std::move(options)), volumes_(limits) {}
 
     using Shared = std::shared_ptr<Guarded<ChunkVolume>>;
-    // The part of a volume that the caller still expects after the present chunk.
+    // The part of a volume that the caller still expects after a chunk.
     enum class Expected : std::uint8_t { more, its_end_is_there, nothing };
     // Returns the volume; makes it if it is unknown. `station` is the station in its path. If more
     // chunks are expected, returns null if there is no place for the volume or it was given up; the
@@ -44,7 +44,8 @@ class ChunkVolumes {
     // timeout. Judges by the names and times of its files, and reads no contents.
     [[nodiscard]] bool may_be_due(const ChunkPath& chunk) const;
     // Makes this chunk the representative of a volume that found no place. Returns the chunk that
-    // was the representative before; returns an empty path if that is this chunk or there was none.
+    // was the representative before; returns an empty path if this chunk was already the
+    // representative, or if there was none.
     [[nodiscard]] std::filesystem::path poll_for_place(const ChunkPath& chunk);
     // Returns the volume of this chunk, or null if it is unknown.
     [[nodiscard]] Shared find_known(const ChunkPath& chunk) const;

@@ -11,7 +11,8 @@ FileKind kind_by_itself(const IngestContext& context, const OfferedFile& file,
     if (!may_be_followed) return Whole{stamp};
     if (auto followed = context.living->find(file.path))
         return Growing{stamp, std::move(followed), {}};
-    // Begins to follow no file that may be gridded before its volume ends, as a quiet file is.
+    // Do not begin to follow a file that may be gridded before its volume ends, such as a quiet
+    // file.
     if (file.may_be_partial()) return Whole{stamp};
     if (auto start = FollowedFile::growing(file.path, context.options.beneath))
         return Growing{stamp, nullptr, std::move(*start)};

@@ -3,7 +3,7 @@
 // A path is classified by its name, its stamp, its row in the catalog, and the files that are being
 // followed. Only the lengths of records are read from the file. Classification changes nothing. A
 // handler that reads a file may find that it is of another kind: a file that has the name of a
-// chunk but is not one is classified again without its name (kind_by_itself()), and a file that
+// chunk but is no chunk is classified again without its name (kind_by_itself()), and a file that
 // cannot be followed is read as a whole.
 //   Gone, Forbidden, Settled   nothing need be read
 //   Chunk                      one file of many that make a volume

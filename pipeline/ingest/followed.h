@@ -3,7 +3,7 @@
 //
 // A GrowingSet gives up files or volumes to stay within its limits. This class remembers the keys
 // of what was given up, so that nothing is followed again only to be given up again. When it
-// remembers `most_remembered` keys, it forgets all of them; they may then be followed once more.
+// remembers `most_remembered` keys, it forgets all keys; then everything may be followed once more.
 // Inside the pipeline room only. Thread contract: one thread at a time; the owner locks.
 #pragma once
 
@@ -28,8 +28,8 @@ class Followed {
 
     // Returns the object that is followed under this key, or null if there is none.
     [[nodiscard]] std::shared_ptr<Object> find(const Key& key) const { return things_.find(key); }
-    // Makes a place for one more file or volume of the station. May give up others, by the rules of
-    // GrowingSet::has_place(). Returns false if there is no place.
+    // Makes a place for one more file or volume of the station. May give up other objects, by the
+    // rules of GrowingSet::has_place(). Returns false if there is no place.
     [[nodiscard]] bool make_place(const std::string& station) {
         const bool has_place = things_.has_place(station, Clock::now());
         remember_given_up();

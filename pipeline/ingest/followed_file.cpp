@@ -149,8 +149,8 @@ std::optional<FollowedFile::Growing> FollowedFile::growing(const fs::path& path,
     const auto header = level2::read_archive_header(head);
     if (!header) return std::nullopt;
     Growing growing{header->icao, 0};
-    // Hardly more than the header has come. This does not show what will follow, so the file may be
-    // growing.
+    // Hardly more than the header has come. The header does not show what will follow, so the file
+    // may be growing.
     if (known <= level2::archive_header_bytes + 16) return growing;
     if (level2::content_at_start(head) != level2::Content::ldm) return std::nullopt;
     const RecordChain chain = chain_of(file, static_cast<std::uint64_t>(facts->st_size));

@@ -55,10 +55,11 @@ struct ShelvedVolume {
         double elevation_deg = 0;  // mean of its radials
     };
     std::map<SweepKey, Kept> sweeps;
-    // The velocities of these sweeps, dealiased for living grids, or with the final grid.
+    // The dealiased velocities of these sweeps. They were made for a living grid or for the final
+    // grid.
     mutable DerivedSweeps dealiased;
-    // The gridded moments of these sweeps without echo that is probably no weather, for living
-    // grids.
+    // For living grids: the gridded moments of these sweeps, without echo that is probably not
+    // weather.
     mutable DerivedSweeps weather;
 
     // Keeps the VELD of the sweep with this key, if it is the sweep on the shelf.
@@ -132,7 +133,7 @@ class FollowedFile {
     }
 
     [[nodiscard]] Result<level2::Decoded> finish();
-    // Keeps the VELD of the complete volume, which finish() returned, with its sweeps.
+    // Keeps the VELD of `dealiased`, the complete volume that finish() returned, with the sweeps.
     void keep_dealiased(const level2::Volume& dealiased);
     // Returns the sweeps, to keep them for the site's next volume. Call it after finish().
     [[nodiscard]] std::shared_ptr<const ShelvedVolume> take_kept() { return std::move(kept_); }

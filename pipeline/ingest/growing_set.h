@@ -7,16 +7,17 @@
 //   a station's own limit   among the members of the station
 //   the total limit         first among members of unknown stations, then among all
 //   the limit of beginnings among members without a complete sweep. A real volume has no complete
-//                           sweep for a fifteenth of its time; a forged one may never have any.
+//                           sweep for a fifteenth of its time; a forged volume may never have a
+//                           complete sweep.
 // If there is too little memory or disk space, the member with the largest product of its size and
-// (1 + its minutes without progress) is given up. If there are too many members, the member given
-// up is the least active one of the station that has the most.
+// (1 + its minutes without progress) is given up. If there are too many members, the least active
+// member of the station with the most members is given up.
 //
-// There is no place for a new member if all others are active: to give up active members for new
-// ones would mean to read everything again and again. A member is active for a minute after it has
-// grown. A new member is active for only five seconds, until a sweep is complete and data came
-// after the first look. At the total limit, however, a station with fewer members takes a place
-// from the station with the most.
+// There is no place for a new member if all members are active: if active members were given up for
+// new members, everything would be read again and again. A member is active for a minute after it
+// has grown. But a member is active for only five seconds as long as it has no complete sweep, or
+// got no data after the first look. At the total limit, however, a station with fewer members takes
+// a place from the station with the most.
 //
 // Threads   One thread at a time; the owner locks.
 #pragma once
@@ -76,8 +77,8 @@ class GrowingSet {
         return at == things_.end() ? nullptr : at->second.object;
     }
 
-    // Makes a place for a new member, by giving up others if necessary. Returns false if there is
-    // no place. A member that is added nevertheless is given up when it next grows.
+    // Makes a place for a new member, by giving up other members if necessary. Returns false if
+    // there is no place. A member that is added nevertheless is given up when it next grows.
     [[nodiscard]] bool has_place(const std::string& station, Clock::time_point now) {
         while (count_of(station) >= limits_.station_count) {
             if (!give_up_idle(&station, now)) return false;
@@ -190,7 +191,7 @@ class GrowingSet {
     }
 
     // Gives up the least active member of the station with the most members, if the station has
-    // more than `count` + 1.
+    // more than `count` + 1 members.
     bool give_up_of_largest(std::size_t count) {
         std::map<std::string, std::size_t> counts;
         for (const auto& [key, thing] : things_)

@@ -30,7 +30,7 @@ class Guarded {
         [[nodiscard]] T& operator*() const { return *value_; }
         // Unlocks before the end of the scope. The value can then no longer be reached through this
         // object.
-        void unlock() STORMCELLAR_NO_LOCK_ANALYSIS {  // the constructor has locked it
+        void unlock() STORMCELLAR_NO_LOCK_ANALYSIS {  // the constructor has locked the mutex
             value_ = nullptr;
             guarded_.mutex_.unlock();
         }

@@ -90,7 +90,7 @@ Result<IngestOutcome> Ingestor::Impl::give_up(const fs::path& path, const Error&
     auto rejected =
         context.reject_unread(path, {why.code, "given up: " + without_path(why.message, path)},
                               stamp ? stamp->size_bytes : 0);
-    // If the rejection cannot be stored, return `why` instead of that error.
+    // If the rejection cannot be stored, return `why`, not the error of storing.
     return rejected ? std::move(rejected) : Result<IngestOutcome>{tl::unexpected<Error>(why)};
 }
 
@@ -114,7 +114,7 @@ Result<Noted> Ingestor::note(const fs::path& path) {
         if (Status marked = context.mark_gone(path); !marked) return pass_on(marked);
         return impl_->is_waited_for(path) ? Noted::stands : Noted::gone;
     }
-    // Ingest() will reject what is no regular file.
+    // If this is not a regular file, ingest() will reject it.
     if (!stamp || !stamp->regular) return Noted::stands;
     const Status noted = context.note_seen(facts_unread(path, *stamp, station_of_path(path)));
     if (!noted) return pass_on(noted);

@@ -1,15 +1,15 @@
 // pipeline/ingest/ingest.h -- registers a raw file in the catalog and puts its grids into the
 // cache.
 //
-// The daemon and the command line share this class. It never changes the raw file. A file that
-// cannot be decoded is recorded as rejected, with the reason; that is a result and not an error. If
-// the cache already has a grid of the volume, pipeline/keep/keep_rule.h decides which grid stays. A
-// volume that the budgets of the cache would not keep is not gridded. Bad data are no error either:
-// an error means that the catalog or the cache cannot be used, or that the system refused
-// something, for example memory or descriptors. Trying again later may help. At the last try, every
-// failure except a shortage (is_shortage()) is recorded as a rejection with its reason; if this
-// rejection cannot be stored, the error is returned. Thread contract: many threads may use an
-// Ingestor at the same time, for different files.
+// The daemon and the command line share this class. The class never changes the raw file. A file
+// that cannot be decoded is recorded as rejected, with the reason; that is a result and not an
+// error. If the cache already has a grid of the volume, pipeline/keep/keep_rule.h decides which
+// grid stays. A volume that the budgets of the cache would not keep is not gridded. Bad data are no
+// error either: an error means that the catalog or the cache cannot be used, or that the system
+// refused something, for example memory or descriptors. Trying again later may help. At the last
+// try, every failure except a shortage (is_shortage()) is recorded as a rejection with its reason;
+// if this rejection cannot be stored, the error is returned. Thread contract: many threads may use
+// an Ingestor at the same time, for different files.
 #pragma once
 
 #include <filesystem>

@@ -38,8 +38,9 @@ void add_nearest_dealiased(const ShelvedVolume& from, SweepKey end, double eleva
     }
 }
 
-// Returns the sweep by which another sweep of its angle is judged: the newest before it with
-// dual polarization, or else with reflectivity. None if the sweep has dual polarization itself.
+// Returns the sweep by which the sweep `key` is judged: of the earlier sweeps of the same angle,
+// the newest with dual polarization, or else the newest with reflectivity. Returns none if there is
+// no such sweep, or if the sweep `key` itself has dual polarization.
 std::optional<SweepKey> judging_sweep(const ShelvedVolume& from, SweepKey key) {
     const auto has = [](const ShelvedVolume::Kept& kept, level2::Moment moment) {
         return kept.measured.test(static_cast<std::size_t>(moment));
@@ -59,7 +60,7 @@ std::optional<SweepKey> judging_sweep(const ShelvedVolume& from, SweepKey key) {
     return newest;
 }
 
-// Removes the moments that are neither gridded nor needed for gridded ones.
+// Removes the moments that are neither gridded nor needed for gridded moments.
 void keep_gridded(level2::Sweep& sweep, MomentSet gridded) {
     std::erase_if(sweep.moments, [&](const level2::SweepMoment& kind) {
         return std::ranges::none_of(level2::all_moments, [&](level2::Moment moment) {

@@ -5,14 +5,15 @@
 // that came before it and to the site's last volume. A complete volume is dealiased as a whole, and
 // alone, so its final grid does not depend on what came before. Living VELD differs from the final
 // VELD at up to 0.1 % of the gates by whole folds, and 0.5 % are ambiguous in one of the two
-// (stormcellar/retrieve/dealias.h; a sweep that follows a wrong one can differ more). Sweeps of the
-// last volume are those of its final VELD.
+// (stormcellar/retrieve/dealias.h; a sweep that is anchored to a wrong sweep can differ more). The
+// sweeps of the last volume have its final VELD.
 //
-// Echo that is probably no weather is left out sweep by sweep, too (DerivedOptions::quality). A
-// sweep with dual polarization is judged by itself, and another by the sweep of its angle that came
-// before it. These sweeps are the same in the final grid. Without dual polarization, a growing
-// volume lacks the sweep above, and the velocities of a surveillance cut; 7.5 % of the echo of a
-// rainy volume is judged otherwise than in the final grid (tests/pipeline/wanted_echo_test.cpp).
+// Echo that is probably not weather is left out sweep by sweep, too (DerivedOptions::quality). A
+// sweep with dual polarization is judged by its own moments. Every other sweep is judged by the
+// sweep of the same angle that came before it. With dual polarization, the final grid leaves out
+// the same echo. Without dual polarization, a growing volume lacks the sweep above, and the
+// velocities of a surveillance cut; 7.5 % of the echo of a rainy volume is judged otherwise than in
+// the final grid (tests/pipeline/wanted_echo_test.cpp).
 //
 // Threads   One thread at a time.
 #pragma once
@@ -30,9 +31,9 @@ class LivingSweeps {
   public:
     // Reads the sweeps of the growing volume that have one of these moments, and the sweeps of the
     // site's last volume (null: none) that the growing volume has not yet replaced. For derived
-    // moments, dealiases those that were not dealiased since they came or changed, and keeps the
-    // result with their volume, with the shear that is gridded. The volumes need not outlive the
-    // object. Errors: those of the shelf.
+    // moments, dealiases the sweeps that were not dealiased since they came or changed. Keeps the
+    // result, and the shear that is gridded, with the sweep's volume. The volumes need not outlive
+    // the object. Errors: those of the shelf.
     [[nodiscard]] static Result<LivingSweeps> read(const ShelvedVolume& growing,
                                                    const ShelvedVolume* last, MomentSet moments,
                                                    const retrieve::DerivedOptions& options);
@@ -41,7 +42,7 @@ class LivingSweeps {
     // sweeps that have it and whose elevation has not come again (within 0.2 degrees). Because only
     // sweeps with the moment count, an old Doppler sweep stays until a new Doppler sweep has come.
     // If the last volume is more than 20 minutes older, its sweeps are left out. For a moment that
-    // comes from velocities, the sweeps have velocities and VELD alone. The result is valid until
+    // comes from velocities, the sweeps have only velocities and VELD. The result is valid until
     // the next call.
     [[nodiscard]] level2::Volume& volume_of(level2::Moment moment);
     // Returns how many sweeps of the last result of volume_of() are from the last volume.

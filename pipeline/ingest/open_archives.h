@@ -20,7 +20,7 @@
 
 namespace stormcellar::pipeline {
 
-// An archive whose members are ingested one after the other, and how far that has come.
+// An archive whose members are ingested one after the other, and the progress of this work.
 struct OpenArchive {
     std::filesystem::path path;
     FileStamp stamp;
@@ -32,8 +32,8 @@ struct OpenArchive {
 };
 
 // The archives that wait for their next turn. The first four stay open until they end, are deleted,
-// or have waited for a day. The others are opened again and read from their beginning. So some
-// archives always make progress.
+// or have waited for a day. Every other archive is opened again for its next turn and read from its
+// beginning. So some archives always make progress.
 class OpenArchives {
   public:
     // Takes the archive out of the list. Returns none if the archive is not open, or has changed

@@ -10,8 +10,8 @@
 
 namespace stormcellar::pipeline {
 
-// Makes a grid for each moment with new data. The grid shows the complete sweeps, and those sweeps
-// of the site's last volume that these have not replaced yet. Adds the grids to the outcome's
+// Makes a grid for each moment with new data. The grid shows the complete sweeps, and the sweeps of
+// the site's last volume that no complete sweep has replaced yet. Adds the grids to the outcome's
 // `living`. `file` is the name of the raw file. Returns false if the new sweeps must be shown
 // later, because there is no time now or no grid can be made yet. Errors: those of the cache and
 // the system.

@@ -7,7 +7,7 @@ namespace stormcellar::pipeline {
 
 Result<IngestOutcome> TakeGone::take(const Gone& gone) {
     if (Status marked = context_.mark_gone(file_.path); !marked) return pass_on(marked);
-    // While it is open, a deleted archive keeps its disk space.
+    // A deleted archive keeps its disk space while it is open.
     (void)context_.archives.take(file_.path, {});
     IngestOutcome outcome;
     outcome.ending = ended::Vanished{};

@@ -25,7 +25,7 @@ class TakeVolumes {
         : context_(context), facts_(std::move(facts)), outcome_(std::move(outcome)) {}
 
     // Lets take() call `use` with the velocities of the volume and their VELD, if the file has one
-    // volume and that was made.
+    // volume and VELD was made.
     void set_use_dealiased(std::function<void(const level2::Volume&)> use) {
         use_dealiased_ = std::move(use);
     }
@@ -49,8 +49,8 @@ class TakeVolumes {
     Result<IngestOutcome> reject(ErrorCode code, std::string why);
     Result<IngestOutcome> settle();
     Result<IngestOutcome> grid_all(std::vector<level2::Volume>& volumes);
-    // Leaves out echo that is probably no weather, if the options say so, and returns the notes for
-    // grids of the volume.
+    // Leaves out echo that is probably not weather, if the options say so, and returns the notes
+    // for grids of the volume.
     std::vector<std::string> keep_wanted_echo(level2::Volume& volume);
     Status grid(const level2::Volume& volume, const std::vector<std::string>& notes);
     Status keep_mosaics(const level2::Volume& volume, const std::vector<std::string>& notes);

@@ -20,7 +20,7 @@ Result<IngestOutcome> TakeWhole::take() {
     if (stamp_.size_bytes > most && context_.living) context_.living->forget(file_.path);
     if (!stamp_.regular)
         return reject({ErrorCode::not_a_file, fmt::format("is {}", kind_of_file(stamp_.kind))});
-    // Do not open chunks as archives: they never are, and there are thousands of them.
+    // Do not open chunks as archives: no chunk is an archive, and there are thousands of chunks.
     if (!file_.is_the_same && stamp_.size_bytes > 0 && !is_chunk_name(file_.path)) {
         auto archive = TakeArchive::open(context_, file_.path, stamp_);
         // If the file no longer exists, the error appears when it is read.

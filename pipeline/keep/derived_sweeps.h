@@ -1,8 +1,9 @@
-// pipeline/keep/derived_sweeps.h -- keeps what was made of shelved sweeps, such as their dealiased
-// velocities, so that it is made once while a volume grows. Used only inside the pipeline room.
+// pipeline/keep/derived_sweeps.h -- keeps results that were made from shelved sweeps, such as
+// dealiased velocities, so that each is made once while a volume grows. Used only inside the
+// pipeline room.
 //
-// Threads   Many threads may use it. keep() must not run while another thread puts a received sweep
-//           on the same shelf.
+// Threads   Many threads may use one object. keep() must not run while another thread puts a
+//           received sweep on the same shelf.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +21,8 @@ class DerivedSweeps {
   public:
     using Key = std::size_t;
 
-    // Returns the sweep that was made of a received sweep; none if it is not kept, as after a late
-    // radial replaced the received sweep on the shelf. Errors: those of the shelf.
+    // Returns the sweep that was made from a received sweep; none if it is not kept, for example
+    // because a late radial replaced the received sweep on the shelf. Errors: those of the shelf.
     [[nodiscard]] std::optional<Result<level2::Sweep>> find(
         const SweepShelf& shelf, Key key, const SweepShelf::Place& received) const {
         SweepShelf::Place place;
@@ -39,8 +40,8 @@ class DerivedSweeps {
         const auto kept = kept_.find(key);
         return kept != kept_.end() && kept->second.received == received.offset;
     }
-    // Keeps a sweep in the place of any before, with the echo that was left out of it. Errors:
-    // those of the shelf.
+    // Keeps a sweep, and the facts about the echo that was left out of this sweep. Replaces an
+    // earlier sweep of this key. Errors: those of the shelf.
     Status keep(SweepShelf& shelf, Key key, const SweepShelf::Place& received,
                 const level2::Sweep& made, const retrieve::LeftOutEcho& left_out = {}) {
         const MutexLock lock(mutex_);

@@ -3,8 +3,8 @@
 // Making a geometry takes longer than using it. When the cache is full, the least recently used
 // geometry is dropped.
 //
-// Threads   Many threads may use it. If two threads want the same geometry at the same time, both
-//           may make it; the first result is kept.
+// Threads   Many threads may use one cache. If two threads want the same geometry at the same time,
+//           both may make it; the first result is kept.
 #pragma once
 
 #include <cstddef>
@@ -83,8 +83,8 @@ class GeometryCache {
             // The value itself may be an optional, so construct in place.
             return std::optional<Value>(std::in_place, *found);
         }
-        // Keeps the value and returns it. If another thread has kept one meanwhile, returns that
-        // one.
+        // Keeps the value and returns it. If another thread has kept a value meanwhile, returns
+        // that value.
         Value keep(const Key& key, Value value) {
             const MutexLock lock(mutex_);
             if (const Value* found = values_.find(key)) return *found;

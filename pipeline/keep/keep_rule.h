@@ -28,13 +28,13 @@ struct Candidate {
 };
 
 // Returns the reason why the existing grid at the path must stay; none if the new grid replaces it.
-// The first of these rules that applies decides. A grid that is missing, damaged, or of another
-// spec or moment is replaced. A grid of an ended volume wins over a living grid. A grid of a
-// complete volume wins over one of an incomplete volume. If both grids are of ended volumes and
-// another file of the volume exists, the grid with the later end wins; if the ends are equal, the
-// grid that comes first in an order of the cells wins. Otherwise the new grid replaces the old one.
-// So machines with the same files keep the same grid, in whatever order the files came. Errors:
-// exhausted or no_space if the existing grid cannot be opened for that reason.
+// The first of the following rules that applies decides. A grid that is missing, damaged, or of
+// another spec or moment is replaced. A grid of an ended volume wins over a living grid. A grid of
+// a complete volume wins over a grid of an incomplete volume. If both grids are of ended volumes
+// and another file of the volume exists, the grid with the later end wins; if the ends are equal,
+// the grid that comes first in an order of the cells wins. Otherwise the new grid replaces the old
+// one. So machines with the same files keep the same grid, in whatever order the files came.
+// Errors: exhausted or no_space if a shortage keeps the existing grid from being opened.
 [[nodiscard]] Result<std::optional<std::string>> reason_to_keep(const std::filesystem::path& path,
                                                                 const Candidate& made);
 
@@ -51,12 +51,12 @@ inline constexpr std::size_t most_volumes_an_hour = 120;
 void keep_to_an_hours_volumes(cache::StoreWriter& store, const std::string& domain,
                               level2::Moment moment, UtcTime time);
 
-// Removes grids of a volume in chunks that have another time than its header. Until the chunk with
-// the header comes, the time of the first radial names the grid. A radar makes one volume at a
-// time, so a partial grid whose radials are within this volume is of this volume. Does nothing for
-// a volume without a header, whose beginning may have been deleted, or if `source_file` is not the
-// name of a chunk (stormcellar/level2/chunk_name.h). Pinned grids, and grids that cannot be read or
-// removed, stay.
+// Removes those grids of a volume in chunks whose time is not the time in the volume's header.
+// Until the chunk with the header comes, the time of the first radial names the grid. A radar makes
+// one volume at a time, so a partial grid whose radials are within this volume is of this volume.
+// Does nothing for a volume without a header, whose beginning may have been deleted, or if
+// `source_file` is not the name of a chunk (stormcellar/level2/chunk_name.h). Pinned grids, and
+// grids that cannot be read or removed, stay.
 void remove_other_times(cache::StoreWriter& store, const std::string& domain, level2::Moment moment,
                         const level2::Volume& volume, const std::string& source_file);
 

@@ -114,7 +114,7 @@ Result<fs::path> SiteGrids::commit(Made& made, const level2::Volume& volume,
 }
 
 // Grids the moments one by one. If the cache does not keep the grid of one moment, goes on with the
-// others.
+// other moments.
 Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, int threads,
                        IngestOutcome& outcome,
                        const std::function<void(const level2::Volume&)>& use_dealiased) {
@@ -129,10 +129,11 @@ Status SiteGrids::keep(const level2::Volume& volume, const GridSource& source, i
     return {};
 }
 
-// Returns the volume. For a moment that comes from velocities, returns `dealiased`, a copy of the
-// volume with VELD, which is made for the first such moment, and with the moment. For POW, returns
-// `judged`, a copy with POW. If the moment cannot be derived from this volume, leaves a remark in
-// the outcome, because the other moments are still good.
+// Returns the volume from which to grid the moment: `measured` for a measured moment, and `judged`,
+// a copy with POW, for POW. For a moment that comes from velocities, adds the moment to
+// `dealiased`, a copy with VELD, and returns that copy. The copy `dealiased` is made for the first
+// such moment. If the moment cannot be derived from this volume, leaves a remark in the outcome,
+// because the other moments are still good.
 Result<SiteGrids::UsedVolume> SiteGrids::used_volume(const level2::Volume& measured,
                                                      level2::Moment moment,
                                                      const GridSource& source,

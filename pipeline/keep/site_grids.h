@@ -1,7 +1,7 @@
 // pipeline/keep/site_grids.h -- grids volumes on the own grid of their site, and puts the grids
 // into the cache. Used only inside the pipeline room.
 //
-// Threads   Many threads may use it.
+// Threads   Many threads may use one object.
 #pragma once
 
 #include <array>
@@ -35,20 +35,20 @@ class SiteGrids {
   public:
     SiteGrids(cache::StoreWriter& store, const IngestOptions& options)
         : store_(store), options_(options), derived_(options.derived) {
-        derived_.quality = 0;  // volumes come without that echo
+        derived_.quality = 0;  // volumes come without improbable echo
     }
 
     // Returns true if the volume has a station and the radar's position is known. Otherwise notes
-    // in the outcome which of them is missing.
+    // in the outcome which of the two is missing.
     [[nodiscard]] static bool has_place(const level2::Volume& volume, IngestOutcome& outcome);
 
-    // Grids each of the moments that the volume holds (without the echo that is to be left out,
-    // which the caller has removed), audits the grids, and commits them. Drops a
-    // new grid if a better one exists (pipeline/keep/keep_rule.h) or the cache's budgets do not
-    // keep it; the outcome says so. The outcome also says why a moment cannot be derived, for
-    // example SRV if the wind profile is too short. Adds to the outcome the times, and the paths of
-    // the grids, including better grids that stay.
-    // Calls `use_dealiased`, if given, with the volume's velocities and their VELD, if it was made.
+    // Grids each of the moments that the volume holds, audits the grids, and commits them. The
+    // caller must first remove the echo that is to be left out. Drops a new grid if a better one
+    // exists (pipeline/keep/keep_rule.h) or the cache's budgets do not keep it; the outcome says
+    // so. The outcome also says why a moment cannot be derived, for example SRV if the wind profile
+    // is too short. Adds the times, and the paths of the grids (also of better grids that stay), to
+    // the outcome. Calls `use_dealiased`, if given, with the volume's velocities and their VELD, if
+    // it was made.
     Status keep(const level2::Volume& volume, const GridSource& source, int threads,
                 IngestOutcome& outcome,
                 const std::function<void(const level2::Volume&)>& use_dealiased = {});

@@ -142,8 +142,8 @@ Status move_all(std::uint64_t bytes, std::string_view verb, const Move& move) {
     return {};
 }
 
-// Opens a file without a name. If the file system has no such files, creates a file and removes its
-// name at once.
+// Opens a file without a name. If the file system has no files without names, creates a file and
+// removes its name at once.
 int nameless_file(const std::filesystem::path& directory) {
     const int made = ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (made >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return made;

@@ -33,8 +33,8 @@ BetweenGrids::BetweenGrids(const cache::StoreReader& store, level2::Moment momen
       geometries_(std::make_unique<GeometryCache>(kept_geometries)),
       instants_(std::make_unique<InstantCache>(kept_instants_bytes)) {}
 
-// Learns the rules of a mosaic from a frame, which names its overlap and has a digest of the other
-// rules.
+// Learns the rules of a mosaic from one of its frames. The recipe in a frame is a digest of the
+// rules, so this function looks for rules with the same recipe.
 Status BetweenGrids::learn_rules(const cache::GridDescription& newest) {
     Domain rules;
     rules.spec = newest.spec;

@@ -7,8 +7,8 @@
 //                    its sweeps; otherwise it has the time of the volume's middle. If sweeps are
 //                    undated, the frame at the middle of a volume is its grid, code by code.
 //   a mosaic         The frame is made from the sites' partials (NAME.ICAO), by the rules of the
-//                    mosaic's frames (pipeline/mosaic/mosaic_frame.h). At the instant of such a
-//                    frame, it equals that frame, code by code.
+//                    mosaic's frames (pipeline/mosaic/mosaic_frame.h). At the instant of a mosaic's
+//                    frame, the new frame equals the mosaic's frame, code by code.
 //
 // Gaps      There is no frame between volumes whose middles are more than 30 minutes apart, before
 //           the first middle, or after the last. A site of a mosaic counts within 15 minutes of its
@@ -19,7 +19,7 @@
 //           Moments other than REF do not move: they are kept or blended in place. If sweeps are
 //           undated, the minutes from the lowest to the highest sweep are ignored.
 // Memory    Two grids of a station and the new frame; for a mosaic, its partials.
-// Threads   One thread at a time. It starts up to `threads` threads of its own.
+// Threads   One thread at a time. An object starts up to `threads` threads of its own.
 #pragma once
 
 #include <memory>
@@ -47,8 +47,8 @@ class BetweenGrids {
     static constexpr std::chrono::minutes longest_bridge{30};
 
     // Keeps a copy of the store. Leaves out grids that cannot be read, and names them in
-    // `problems`. Errors: not_found if there is no grid, or a mosaic's sites have none; unsupported
-    // for a mosaic whose rules the defaults cannot express; those of the store.
+    // `problems`. Errors: not_found if there is no grid, or a mosaic's sites have no grids;
+    // unsupported for a mosaic whose rules the defaults cannot express; those of the store.
     static Result<BetweenGrids> open(const cache::StoreReader& store, const std::string& domain,
                                      level2::Moment moment, const BetweenOptions& options,
                                      std::vector<std::string>& problems);

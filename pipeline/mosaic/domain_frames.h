@@ -42,13 +42,13 @@ namespace stormcellar::pipeline {
 inline constexpr std::chrono::milliseconds greatest_frame_gap = FrameOptions{}.greatest_gap;
 
 enum class FrameStanding {
-    not_due,  // there are no partials both before and after the instant, nearby
-    current,  // exists, and was made from the present partials by the present rules
-    to_make,  // is missing, is damaged, or differs from what the present partials give
+    not_due,  // no partials are near the instant on both sides of it
+    current,  // exists, and its partials and the rules have not changed since
+    to_make,  // is missing, is damaged, or differs from what the partials give now
 };
 
 // Compares the frame in the store with the frame that MosaicMaker::make_again() would make. Reads
-// no cells of either.
+// no cells.
 [[nodiscard]] Result<FrameStanding> standing_of(const cache::StoreReader& store,
                                                 std::span<const Domain> domains,
                                                 const cache::GridName& frame);

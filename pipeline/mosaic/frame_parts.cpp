@@ -37,7 +37,7 @@ class Digest {
     std::vector<std::byte> bytes_;
 };
 
-// Adds the facts of the cells that do not depend on how the grid's file is packed.
+// Adds those facts of the cells that do not depend on how the grid's file is packed.
 void add_bricks(const grid::BrickView& view, Digest& digest) {
     digest.add(view.quantization.code_bytes);
     digest.add(view.quantization.first_value);

@@ -4,9 +4,9 @@
 // A frame in the cache lists the partials from which it was made. Each has a fingerprint of
 // everything in it that affects the frame: its cells (by the checksums of its bricks), columns,
 // site and times. The frame also has its recipe, a hash of the rules for overlap and time. So when
-// a new volume comes, only the columns in which the new frame differs must be merged; the others
-// are copied (grid::update()). A fingerprint covers only the checksums of bricks and not their
-// codes, so verify the codes before copying.
+// a new volume comes, only the columns in which the new frame differs must be merged; the other
+// columns are copied (grid::update()). A fingerprint covers only the checksums of bricks and not
+// their codes, so verify the codes before copying.
 //
 // Threads   Pure functions.
 #pragma once

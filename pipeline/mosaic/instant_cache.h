@@ -5,8 +5,8 @@
 // instant takes longer than all merging. So the grids of sites whose volumes have not changed are
 // taken from this cache. Beyond a limit of bytes, the least recently used grids are dropped.
 //
-// Threads   Many threads may use it. If two threads want the same grid at the same time, both may
-//           make it; one of the two is kept.
+// Threads   Many threads may use one cache. If two threads want the same grid at the same time,
+//           both may make it; one of the two is kept.
 #pragma once
 
 #include <compare>

@@ -11,7 +11,7 @@ namespace stormcellar::pipeline {
 namespace {
 
 constexpr std::chrono::milliseconds greatest_gap = FrameOptions{}.greatest_gap;
-// If a station has more open partials than this, the ones that cannot contribute to a frame are
+// If a station has more open partials than this, the partials that cannot contribute to a frame are
 // closed.
 constexpr std::size_t most_open = 24;
 
@@ -19,8 +19,8 @@ UtcTime middle_of_file(const OpenPartial& partial) {
     return PartialView{&partial.file.description(), {}, nullptr}.middle();
 }
 
-// Closes all partials but the last before an instant and the first after it, which are those that
-// brackets_of() takes.
+// Closes the partials that brackets_of() does not take: for each instant, it takes the last partial
+// before the instant and the first one after it.
 void keep_brackets(const std::vector<UtcTime>& instants, std::vector<OpenPartial>& files) {
     std::set<std::size_t> needed;
     for (const UtcTime instant : instants) {
@@ -133,7 +133,7 @@ Result<bool> MappedPartials::drop_damaged(std::vector<std::string>& problems) {
         bad_.insert(path);
     }
     if (bad_.size() == known) return false;
-    // If damaged partials were dropped, others may contribute in their place.
+    // If damaged partials were dropped, other partials may contribute in their place.
     if (Status loaded = load(problems); !loaded) return pass_on(loaded);
     return true;
 }

@@ -1,10 +1,10 @@
 // pipeline/mosaic/mapped_partials.h -- opens the files of a domain's partials near a time. Used
 // only inside the pipeline room.
 //
-// Each partial holds a descriptor and a map. Only partials within 35 minutes of the requested
-// times, which may contribute, are opened. A radar has some twenty of these at most. If a station
-// has more than 24, only the last partial before each frame and the first one after it stay open,
-// so that a flood of volumes does not use up the descriptors.
+// Each partial holds a descriptor and a map. Only partials within 35 minutes of the requested times
+// may contribute, so only these are opened. A radar has at most some twenty such partials. If a
+// station has more than 24, only the last partial before each frame and the first partial after it
+// stay open, so that a flood of volumes does not use up the descriptors.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -38,10 +38,11 @@ struct OpenPartial {
 
 class MappedPartials {
   public:
-    // Opens the partials that may contribute at an instant from `from` to `to`. Names partials that
-    // cannot be opened in `problems`. Leaves out partials of another grid. `store` and `domain`
-    // must outlive the object. Errors: the cache cannot be read; a shortage, for example of
-    // descriptors; with Unreadable::is_an_error, io for a partial that cannot be read.
+    // Opens the partials that may contribute at an instant from `from` to `to`. Names in `problems`
+    // the partials that cannot be opened. Leaves out partials that are no windows of the domain.
+    // `store` and `domain` must outlive the object. Errors: the cache cannot be read; a shortage,
+    // for example of descriptors; with Unreadable::is_an_error, io for a partial that cannot be
+    // read.
     static Result<MappedPartials> open(const cache::StoreReader& store, const Domain& domain,
                                        level2::Moment moment, UtcTime from, UtcTime to,
                                        std::vector<std::string>& problems,

@@ -50,8 +50,8 @@ struct MosaicChoice {
                                          const accuracy::Choice& choice);
 
 // Returns the choice that applies without a budget: the default of gridding, advected, each sweep
-// at its own time, the requested rule of overlap, and default codes. If effects of the chain have
-// settings, these override it.
+// at its own time, the requested rule of overlap, and default codes. Settings of the chain's
+// effects override this choice.
 [[nodiscard]] accuracy::Choice default_mosaic_choice(const accuracy::Chain& chain,
                                                      const grid::GridSpec& domain,
                                                      double beam_width_deg);

@@ -63,7 +63,7 @@ SiteShare share_of(const PartialView* before, const PartialView* after, UtcTime 
 }
 
 // Returns a share for each site that has a partial near the instant. Errors: not_found if no site
-// has.
+// has such a partial.
 Result<std::vector<SiteShare>> shares_of(std::span<const PartialView> partials, UtcTime instant,
                                          const FrameOptions& options) {
     const std::vector<Bracket> brackets = brackets_of(partials, instant, options.greatest_gap);
@@ -131,7 +131,7 @@ Status make_share(SiteShare& share, UtcTime instant, const FrameOptions& options
 }
 
 // Collects texts, each once, in order. Beyond a limit, only counts further texts: the file of a
-// frame holds at most 1 MiB of texts, and each partial adds some.
+// frame holds at most 1 MiB of texts, and each partial adds texts.
 class TextsOnce {
   public:
     TextsOnce(std::size_t most_bytes, std::string_view kind)
@@ -202,8 +202,8 @@ std::string frame_effects(const std::string& of_partials, const FrameOptions& op
     return text;
 }
 
-// Returns the windows in which the new frame differs from the previous one. Returns none if nothing
-// can be copied from the previous frame.
+// Returns the windows in which the new frame differs from the previous frame. Returns none if
+// nothing can be copied from the previous frame.
 std::optional<std::vector<grid::GridWindow>> changes_since(const PreviousFrame* previous,
                                                            const cache::GridDescription& now,
                                                            const FrameOptions& options,

@@ -77,8 +77,8 @@ struct FrameOptions {
     bool sweep_times = true;
     // A partial whose middle is farther from the instant is not used.
     std::chrono::milliseconds greatest_gap = std::chrono::minutes{15};
-    // The result of estimate_motions(). It must outlive the call. At a site that it does not have,
-    // echo does not move. Null: motions are estimated from the partials.
+    // The result of estimate_motions(). It must outlive the call. At a site that is not in this
+    // result, echo does not move. Null: motions are estimated from the partials.
     const Motions* motions = nullptr;
     int threads = 1;
 };

@@ -43,7 +43,7 @@ PartialOptions partial_options(const Domain& domain, level2::Moment moment,
 }
 
 // The time span of the frames that a new volume changes. It goes from the previous volume of the
-// site to the next one, but at most greatest_frame_gap to each side, and not beyond the times of
+// site to the next volume, but at most greatest_frame_gap to each side, and not beyond the times of
 // all partials.
 struct Span {
     UtcTime from, to;
@@ -106,7 +106,8 @@ MosaicMaker::MosaicMaker(cache::StoreWriter* store, std::vector<Domain> domains,
       geometries_(kept_geometries),
       instants_(kept_instants_bytes) {}
 
-// Makes partials and frames in each domain. If one domain has an error, continues with the others.
+// Makes partials and frames in each domain. If one domain has an error, continues with the other
+// domains.
 Result<Kept> MosaicMaker::take_in(const VolumeSource& source, int threads) {
     Kept kept;
     Status all;
@@ -242,7 +243,7 @@ void MosaicMaker::finish(cache::GridDescription& frame,
 }
 
 // Returns true if the frame is due and is missing, lacks a partial, or was made of an earlier state
-// of its partials. A frame is not stale because its partials have left the cache.
+// of its partials. Partials that have left the cache do not make a frame stale.
 Result<bool> MosaicMaker::is_stale(const FrameJob& job, const MappedPartials& partials) const {
     const auto views = partials.views();
     if (!lies_between(views, job.instant)) return false;

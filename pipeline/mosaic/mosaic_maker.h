@@ -21,7 +21,8 @@
 // A frame leaves out the stations of late machines (pipeline/options/partial_sources.h). Its
 // provenance names these stations.
 //
-// Threads   Many threads may use it; calls for the same domain and moment wait for each other.
+// Threads   Many threads may use one MosaicMaker; calls for the same domain and moment wait for
+//           each other.
 // Errors    Those of gridding, merging and the store.
 #pragma once
 
@@ -97,9 +98,9 @@ class MosaicMaker {
                 std::shared_ptr<PartialSources> sources = nullptr);
 
     // Makes the partials of a volume, and the frames that they change, with `threads` threads. Does
-    // nothing if no domain uses the volume. Errors: only passing ones, for example if the system
-    // refuses a write; the other domains have the volume nevertheless. Lasting errors are among the
-    // problems.
+    // nothing if no domain uses the volume. Errors: only temporary ones, for example if the system
+    // refuses a write; the volume is still stored for the other domains. Lasting errors are among
+    // the problems.
     Result<Kept> take_in(const VolumeSource& source, int threads);
     // Copies a partial that another machine made into the store, and makes the frames that it
     // changes. If the store has the partial already, only notes its frames for make_stale(). If the
@@ -108,10 +109,11 @@ class MosaicMaker {
     // not the domain's, or its radials are in the future; those of the store. If a frame can never
     // be made, the problems name it, and the partial is accepted.
     Result<Kept> take_partial(const OthersPartial& partial, int threads);
-    // Checks one frame, newest first: of the frames around partials that the store already had when
-    // take_partial() was called. Makes it again if it lacks one of the partials or was made of an
-    // earlier state of them. Returns none when all were checked. Errors: those of make_again(); the
-    // frame is checked again later unless the error is in the data.
+    // If the store already had a partial when take_partial() was called, the frames around it must
+    // be checked. Checks the newest of these frames that is not checked yet. Makes the frame again
+    // if it lacks one of its partials or was made from an earlier state of them. Returns none when
+    // all were checked. Errors: those of make_again(); the frame is checked again later unless the
+    // error is in the data.
     Result<std::optional<StaleFrame>> make_stale(int threads, std::vector<std::string>& problems);
     [[nodiscard]] bool is_idle() const { return store_ == nullptr || domains_.empty(); }
     [[nodiscard]] const std::vector<Domain>& domains() const { return domains_; }
@@ -120,9 +122,9 @@ class MosaicMaker {
         return find_domain(domains_, name, moment);
     }
 
-    // Makes a frame from the existing partials. It replaces the existing frame. Names partials that
-    // are left out in `problems`. Errors: not_found if the domain is not configured, or no site has
-    // a volume near the instant; bad_argument for an instant at which the domain has no frames.
+    // Makes a frame from the existing partials. It replaces the existing frame. Names in `problems`
+    // the partials that are left out. Errors: not_found if the domain is not configured, or no site
+    // has a volume near the instant; bad_argument for an instant at which the domain has no frames.
     Result<FrameMade> make_again(const cache::GridName& frame, int threads,
                                  std::vector<std::string>& problems);
 

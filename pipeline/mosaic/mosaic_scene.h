@@ -78,7 +78,7 @@ class MosaicScene {
     // needed.
     void forget(const MosaicChoice& choice);
 
-    // Returns the volumes next to the instant, which the frames use.
+    // Returns the volumes that the frames use: the volumes next to the instant.
     [[nodiscard]] const std::vector<SceneVolume>& volumes() const { return volumes_; }
     [[nodiscard]] const std::vector<Times>& times() const { return times_; }
     // Returns the brackets of the sites, as indices into volumes(). A bracket that has both volumes

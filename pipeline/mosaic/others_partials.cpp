@@ -26,7 +26,7 @@ constexpr std::size_t most_text_bytes = 1024;
 // are within minutes.
 constexpr std::chrono::hours farthest_radial_of_part{1};
 
-// Returns the name of a list in a partial's provenance that is too long, or an empty text.
+// If a list in a partial's provenance is too long, returns the list's name, else an empty text.
 std::string_view excess_of(const grid::Provenance& part) {
     if (part.notes.size() > most_notes || part.radar_troubles.size() > most_notes) return "notes";
     if (part.source_files.size() > most_files || part.stations.size() > most_files) return "names";
@@ -93,8 +93,8 @@ bool is_within(const grid::GridWindow& one, const grid::GridWindow& other) {
            one.end_x() <= other.end_x() && one.end_y() <= other.end_y();
 }
 
-// Checks that the partial can be merged with others. If one partial does not match, merge() refuses
-// the whole frame.
+// Checks that the partial can be merged with other partials. If one partial does not match, merge()
+// refuses the whole frame.
 Status check_cells(const OthersPartial& partial, const cache::GridFile& file,
                    const Domain& domain) {
     const cache::GridDescription& grid = file.description();

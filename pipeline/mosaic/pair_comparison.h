@@ -19,8 +19,8 @@
 
 namespace stormcellar::pipeline {
 
-// The partial of a site whose middle is nearest to an instant, and the next nearest partial with
-// the same columns (null: none).
+// A site's partial with the middle nearest to an instant, and the next nearest partial with the
+// same columns (null: none).
 struct SiteLook {
     const PartialView* nearest = nullptr;
     const PartialView* other = nullptr;

@@ -7,7 +7,7 @@
 namespace stormcellar::pipeline {
 namespace {
 
-// Number of newest frames to examine, because the newest ones of a domain are provisional.
+// Number of newest frames to examine, because the very newest frames of a domain are provisional.
 constexpr std::size_t frames_looked_at = 24;
 
 bool has_reflectivity(const Domain& domain) {

@@ -1,10 +1,10 @@
 // pipeline/mosaic/site_watch.h -- compares, from time to time, the overlapping sites of the mosaics
 // in the cache.
 //
-// Takes the newest frame of a domain that is not provisional. Its partials show which of its sites
-// may overlap; each such pair is compared (pipeline/mosaic/pair_comparison.h). A pair is compared
-// again only for a frame that is at least an hour later. So nothing is compared while older data
-// are replayed.
+// Takes a domain's newest frame that is not provisional. Its partials show which of its sites may
+// overlap; each such pair is compared (pipeline/mosaic/pair_comparison.h). A pair is compared again
+// only for a frame that is at least an hour later. So nothing is compared while older data are
+// replayed.
 //
 // Threads   One thread at a time.
 #pragma once

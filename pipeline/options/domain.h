@@ -57,8 +57,8 @@ using Bounds = std::array<double, 4>;
                                                         const Bounds& bounds);
 
 // Reads heights above mean sea level from the key levels_km: "BOTTOM:TOP:STEP" or a list of
-// numbers. Returns none if the key is absent. Complains about another form of the value, and
-// returns none. Complains about an empty list, but returns it.
+// numbers. Returns none if the key is absent. Complains if the value has neither form, and returns
+// none. Complains about an empty list, but returns it.
 [[nodiscard]] std::optional<std::vector<double>> read_levels_m(TomlTable& table);
 // Returns the moment of this name. If there is none, complains about the key and returns none.
 [[nodiscard]] std::optional<level2::Moment> read_moment(TomlTable& table, std::string_view key,

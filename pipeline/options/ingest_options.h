@@ -32,8 +32,8 @@ inline constexpr std::uint64_t most_shelf_bytes = std::uint64_t{4} << 30;
 // a large volume.
 inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
 
-// Returns what to decode for grids of these moments, without echo that is less probably weather
-// than `quality`. Some moments, and the judgment of echo, take all measured moments.
+// Returns what to decode for grids of these moments, without echo whose probability of weather is
+// below `quality`. Some moments, and the judgment of echo, take all measured moments.
 [[nodiscard]] inline level2::Selection decoded_for(std::vector<level2::Moment> moments,
                                                    double quality) {
     if (quality > 0 || std::ranges::any_of(moments, level2::uses_all_moments)) return {};
@@ -56,7 +56,8 @@ enum class Load : std::uint8_t {
 };
 
 // Options for gridding volumes while they grow. The living grid of a growing volume shows the
-// sweeps that are complete, and sweeps of the site's last volume in place of the others.
+// sweeps that are complete. In place of the missing sweeps it shows sweeps of the site's last
+// volume.
 struct LivingGrids {
     // The directory for sweeps on disk, in files without names. Empty: no living grids are made,
     // and a volume is finished with the chunks that exist.
@@ -77,7 +78,7 @@ struct LivingGrids {
 };
 
 // Accepts a file by the size and hash of the bytes that were read, or returns the reason why it
-// must not be gridded. It is called from the threads that ingest.
+// must not be gridded. The threads that ingest call this function.
 using ReadCheck = std::function<Status(const std::filesystem::path& path, std::uint64_t size_bytes,
                                        std::uint64_t content_hash)>;
 
@@ -100,7 +101,7 @@ struct IngestOptions {
     // The machines that bring partials of the domains; null: none.
     std::shared_ptr<PartialSources> partial_sources;
     // Number of threads in total. Files that are ingested at the same time share them. A single
-    // file uses all of them.
+    // file uses all threads.
     int decode_threads = 1;
     int grid_threads = 1;
     LivingGrids living;

@@ -15,7 +15,7 @@
 
 namespace stormcellar::pipeline {
 
-// The ways in which ingesting a file can end. Facts that only one of these ways has are in ended::X
+// The results of ingesting a file. Facts that belong to only one of these results are in ended::X
 // below.
 enum class IngestResult {
     // Registered, and the cache has the site's own grid of a volume of the file, or the cache's
@@ -60,7 +60,7 @@ struct Incomplete {
 };
 struct Rejected {
     static constexpr IngestResult result = IngestResult::rejected;
-    ErrorCode with = ErrorCode::internal;  // the code of the error that caused it
+    ErrorCode with = ErrorCode::internal;  // the code of the error that caused the rejection
 };
 
 }  // namespace ended

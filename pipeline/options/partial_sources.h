@@ -6,7 +6,7 @@
 // brings, and says so. Lateness depends only on the times of volumes, and not on a clock. So a
 // frame does not depend on who makes it or when.
 //
-// Threads   Many threads may use it.
+// Threads   Many threads may use one object.
 #pragma once
 
 #include <chrono>

@@ -92,8 +92,8 @@ Status time_all(MosaicScene& scene, int rounds, const std::function<void()>& one
         accuracy::time_in_rounds(works, rounds, [&scene] { return scene.now_s(); });
     if (!status) return status;
     for (std::size_t at = 0; at < rungs.size(); ++at) {
-        // Add the time for estimating the motion, because the scene did that before it made a
-        // frame.
+        // Add the time for estimating the motion, because the scene estimated it before the
+        // first frame.
         const bool moves = rungs[at].with_times.time == grid::TimeMethod::advected;
         const double motion_s = moves ? scene.motion_seconds() : 0;
         rungs[at].row.time_s = timings[at].first_s + motion_s;

@@ -3,10 +3,10 @@
 // grid/plan/grid_ladder.h does not have.
 //
 // Each of these steps has a row for each rung. A row has the difference between two frames, over
-// all cells with a value in both. One frame has this rung, and every other step exact; the other is
-// the frame of the exact chain. The row also has the time of making a frame from kept partials,
-// with the other steps at their default. Rows of the step "chain" are whole chains; their time
-// includes gridding every volume. Times are processor time for one thread, and wall time for
+// all cells with a value in both. One frame has this rung and is exact in every other step; the
+// other frame is made by the exact chain. The row also has the time of making a frame from kept
+// partials, with the other steps at their default. Rows of the step "chain" are whole chains; their
+// time includes gridding every volume. Times are processor time for one thread, and wall time for
 // several.
 //
 // A position error is the distance that the fastest echo moves (pipeline/plan/mosaic_plan.h). Whole

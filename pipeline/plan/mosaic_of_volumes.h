@@ -46,8 +46,8 @@ struct MosaicOfVolumes {
                                                   const MosaicRequest& request,
                                                   GeometryCache& geometries);
 
-// Returns one partial for each volume. It is gridded by the settings of the chain, and otherwise by
-// the defaults. Errors: those of make_partials().
+// Returns one partial for each volume. Each partial is gridded by the settings of the chain, and
+// otherwise by the defaults. Errors: those of make_partials().
 [[nodiscard]] Result<std::vector<MadePartial>> grid_volumes(const std::vector<SceneVolume>& volumes,
                                                             const MosaicRequest& request,
                                                             GeometryCache& geometries);

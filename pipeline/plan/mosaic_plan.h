@@ -6,11 +6,11 @@
 //             of a frame is one cell of its volumes or a mean of such cells.
 //   time, sweeps, overlap
 //             The error of values is the difference between two whole frames of the default grids
-//             in fine codes. One has the step at this rung, the other at the next; the other two
-//             steps are exact. Frames are not sampled, because a cell that moved may come from
-//             anywhere. The error of positions is the distance that the fastest echo moves, by the
-//             motion that the grids show: between a volume's middle and the instant (echo_motion),
-//             or between a sweep and its volume's middle (sweep_times).
+//             in fine codes. One frame has the step at this rung, the other frame at the next rung;
+//             the other two steps are exact. Frames are not sampled, because a cell that moved may
+//             come from anywhere. The error of positions is the distance that the fastest echo
+//             moves, by the motion that the grids show: between a volume's middle and the instant
+//             (echo_motion), or between a sweep and its volume's middle (sweep_times).
 //   codes     A proven bound: half a step for each time that a value is rounded (in its partial,
 //             between two volumes, and where sites mix).
 // The chosen frame is compared with the frame of the exact chain, over all cells with a value in

@@ -19,7 +19,7 @@ constexpr double sweep_times_effort = 3;
 constexpr double overlap_effort = 0.2;
 constexpr double fine_codes_effort = 0.2;
 
-// Returns the step of merging with this name. The chain of a mosaic has all of them.
+// Returns the step of merging with this name. The chain of a mosaic has all steps of merging.
 accuracy::Step& step_named(accuracy::Chain& chain, std::string_view name) {
     return chain.steps[accuracy::find_step(chain, name).value()];
 }
