@@ -1,5 +1,5 @@
-// Writes a directory of PNG files. First makes a temporary directory beside it, and then renames
-// that.
+// Writes a directory of PNG files. First makes a temporary directory beside the final place, and
+// then renames it.
 #include <optional>
 #include <utility>
 

@@ -139,7 +139,7 @@ class VideoEncoder final : public FrameEncoder {
         return {};
     }
 
-    // Converts into a new frame each time, because the encoder may still be reading the last one.
+    // Converts into a new frame each time, because the encoder may still be reading the last frame.
     Status convert(const Image& image) {
         fill_even(image);
         Handle<AVFrame> frame(av_frame_alloc());

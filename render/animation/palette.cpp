@@ -101,7 +101,7 @@ struct Split {
 void sort_by_channel(std::span<Sample> samples, std::size_t channel) {
     std::ranges::sort(samples, [channel](const Sample& a, const Sample& b) {
         if (a.point[channel] != b.point[channel]) return a.point[channel] < b.point[channel];
-        // An order that does not depend on the order before.
+        // Without this, equal channels would keep an order that depends on the earlier sorting.
         return packed(a.color) < packed(b.color);
     });
 }

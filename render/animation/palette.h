@@ -28,7 +28,8 @@ class ColorHistogram {
     ColorHistogram();
     void add(const Image& frame);
 
-    // Returns at most `size` (2 to 256) colors. Each pixel that was added is near one of them.
+    // Returns at most `size` (2 to 256) colors. Each pixel that was added is near one of these
+    // colors.
     [[nodiscard]] std::vector<Rgb8> palette(std::size_t size) const;
 
   private:

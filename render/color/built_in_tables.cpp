@@ -135,7 +135,8 @@ constexpr ColorClass hail_probability_classes[] = {
     {60, 0xA5CF3B}, {70, 0xFFDC3C}, {80, 0xFF9A2E}, {90, 0xFF5A36}, {100, 0xD64BC8},
 };
 
-// The bounds are the SHI of hail of 5, 10, 15 ... mm, so that maps of both look alike.
+// The bounds are the SHI of hail of 5, 10, 15 ... mm, so that maps of SHI and of hail size look
+// alike.
 constexpr ColorClass hail_index_classes[] = {
     {4, 0x6C7A89},   {16, 0x4F7FB5},  {35, 0x2FA4D8},   {62, 0x35C3A0},
     {97, 0x43B649},  {140, 0xA5CF3B}, {248, 0xFFDC3C},  {388, 0xFF9A2E},

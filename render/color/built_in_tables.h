@@ -1,6 +1,6 @@
 // render/color/built_in_tables.h -- the color tables that come with the program.
 //
-//   nws-reflectivity    dBZ     15 classes of 5 dB from 5 dBZ, the last one open above
+//   nws-reflectivity    dBZ     15 classes of 5 dB from 5 dBZ, the last class open above
 //   nws-velocity        m/s     by speed in both directions: green toward the radar, red away from
 //                       it, bounds 5, 10, 13.5, 18.5, 25.5, 33 m/s for 10, 20, 26, 36, 50, 64
 //                       knots; gray below 5 m/s; begins at -64 m/s, open above
@@ -15,7 +15,7 @@
 //                               (Amburn and Wolf 1997), where red begins
 //   hail-size           mm      our own colors for MESH; green begins at the 25 mm of severe hail
 //   hail-probability    %       our own colors for POSH; green begins at 50 %
-//   hail-index          J/m/s   our own colors for SHI, those of the size that follows from it
+//   hail-index          J/m/s   our own colors for SHI: those of the size that follows from SHI
 //   rain-depth          mm      our own colors for rain totals
 //   safe-reflectivity, safe-velocity, safe-zdr, safe-rho   our own colors, for every kind of color
 //                                                          vision
@@ -48,7 +48,7 @@ namespace stormcellar::render {
 
 inline constexpr double least_safe_step = 6;
 inline constexpr double least_safe_sides = 15;
-// The color of range folded air in all built-in tables, and in color files that do not name one.
+// The color of range folded air in all built-in tables, and in color files that name no such color.
 inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 
 // Returns the tables in the order above.
@@ -56,7 +56,7 @@ inline constexpr Rgba8 usual_range_folded = {0x77, 0x00, 0x7D, 255};
 // Returns a table by its name. Errors: not_found; the message gives the nearest name, or else lists
 // all tables.
 [[nodiscard]] Result<ColorTable> find_color_table(std::string_view name);
-// Return the default table of a moment with classes, and the one without.
+// Return the default tables of a moment: the table with classes, and the table without classes.
 [[nodiscard]] const ColorTable& default_color_table(level2::Moment moment);
 [[nodiscard]] const ColorTable& smooth_color_table(level2::Moment moment);
 // Returns the moment whose tables a moment has: VEL for VELD and SRV, AZSH for DIVG.

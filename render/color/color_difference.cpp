@@ -132,7 +132,7 @@ Result<ImageDifference> image_difference(const Image& one, const Image& other) {
     }
     ImageDifference summary;
     summary.pixels = one.rgba.size() / 4;
-    // Differences of the pixels that differ; for all others it is 0.
+    // Differences of the pixels that differ; for all other pixels the difference is 0.
     std::vector<double> differences;
     std::unordered_map<std::uint64_t, double> known;  // most pictures repeat a few pairs of colors
     for (std::size_t i = 0; i < one.rgba.size(); i += 4) {

@@ -3,7 +3,7 @@
 //
 //   smooth-reflectivity, smooth-velocity, smooth-spectrum-width, smooth-zdr, smooth-rho,
 //   smooth-phi, smooth-cfp
-//   smooth-shear        orange where counterclockwise or diverging, blue where the opposite,
+//   smooth-shear        orange for counterclockwise rotation or divergence, blue for the opposite,
 //                       lighter with strength
 //   smooth-kdp, smooth-rain
 //   smooth-quality      violet where the echo is no weather, green where it is
@@ -18,8 +18,8 @@
 // (CIEDE2000) if the values are this far apart: 15 dBZ, 10 m/s of velocity up to 40 m/s, 0.005/s of
 // shear up to 0.02/s, 4 m/s of spectrum width, 2 dB of ZDR, 0.1 of RHO above 0.7, 60 degrees of
 // PHI, 15 dB of CFP, 0.3 of POW, 2 degrees/km of KDP, 40 mm/h of rain up to 100
-// (tests/render/safe_tables_test.cpp). The stepped safe tables have
-// this difference between neighboring classes, which are narrower.
+// (tests/render/safe_tables_test.cpp). The stepped safe tables have this difference between
+// neighboring classes, which are narrower.
 //
 // Threads   Pure.
 #pragma once
@@ -44,9 +44,9 @@ struct MomentLook {
     std::string_view classes = {};
     std::string_view smooth = {};
     std::vector<ExtinctionPoint> (*extinction)(float lowest) = nullptr;  // default_extinction()
-    bool is_never_negative = false;  // there are no values below a table that begins at 0
-    // If a coarse map combines several values: true: it shows the largest, false: it shows the
-    // mean. Moments that wrap have a rule of their own (web/data/pictures/flat_map.cpp).
+    bool is_never_negative = false;  // true: values are 0 or more, so a table from 0 has them all
+    // A cell of a coarse map that combines several values shows the largest if true, else the mean.
+    // Moments that wrap have a rule of their own (web/data/pictures/flat_map.cpp).
     bool shows_largest = false;
 };
 [[nodiscard]] const MomentLook& look_of(level2::Moment moment);

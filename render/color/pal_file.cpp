@@ -211,7 +211,7 @@ class PalReader {
     }
 
     // Sets the moment and the unit of the table. Returns how many of the file's units make one of
-    // ours.
+    // our units.
     double settle_meaning(ColorTable& table) {
         const std::string product = upper(product_);
         if (const auto moment = level2::moment_from_name(product)) {

@@ -1,7 +1,7 @@
 // render/color/pal_words.h -- the names of products and units in .pal files, and their meaning.
 //
 // The viewer has a copy of these tables. tests/repository/viewer_facts_test.cpp compares the copy
-// with them, and can write it.
+// with these tables, and can write the copy.
 #pragma once
 
 #include <array>

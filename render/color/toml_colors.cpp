@@ -74,8 +74,8 @@ bool read_meaning(TomlTable& root, ColorTable& table) {
     return true;
 }
 
-// Returns the newer spelling of the key, or the older one if only that is present. If both are
-// present, the older one so counts as an unknown key.
+// Returns the newer spelling of the key, or the older spelling if only the older key is present. If
+// both keys are present, the older key then counts as unknown.
 std::string_view color_key_of(const TomlTable& point) {
     return point.has("colour") && !point.has("color") ? "colour" : "color";
 }

@@ -17,7 +17,7 @@ namespace stormcellar::render {
 // is no forecast.
 [[nodiscard]] std::vector<std::string> cell_notes(const CellOverlay& overlay);
 
-// Returns the same with the whole method, for the metadata of a picture.
+// Returns the same lines with the whole method, for the metadata of a picture.
 [[nodiscard]] std::string cells_sentence(const CellOverlay& overlay);
 // Returns the method alone, for the metadata of a loop.
 [[nodiscard]] std::string cells_method(const std::optional<retrieve::FreezingLevels>& freezing,

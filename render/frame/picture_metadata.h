@@ -9,8 +9,8 @@
 //   Frames              for a loop
 //   Domain, Stations, Product, Moment, Units
 //   Freezing levels     for hail
-//   Melting layer       for hydrometeor classes; for hail, if its top is far from the assumed
-//                       height of 0 C
+//   Melting layer       for hydrometeor classes; for hail, if the layer's top is far from the
+//                       assumed height of 0 C
 //   Hail error          if the freezing levels err; for a still
 //   Storm cells         if they are marked: how they were found and followed
 //   Shapes              if files of shapes are drawn: their names, and how many are in force
@@ -51,8 +51,8 @@ struct PictureFacts {
     std::string shapes = {};            // the files of shapes that are drawn; empty: none
 };
 
-// Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid, whose
-// method stands for all frames.
+// Returns the metadata. `scene` must be the scene that was drawn. `grid` describes one grid; its
+// method is written as the method of all frames.
 [[nodiscard]] Metadata metadata_of(const PictureFacts& facts, const cache::GridDescription& grid,
                                    const Scene& scene);
 

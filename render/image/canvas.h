@@ -3,7 +3,7 @@
 // The font is DejaVu Sans, regular and bold. The program reads the font's files itself, so that a
 // picture is the same on every machine.
 //
-// Threads   One thread at a time may use a Canvas, and one a Fonts.
+// Threads   One thread at a time may use a Canvas. The same holds for a Fonts.
 #pragma once
 
 #include <memory>
@@ -63,8 +63,8 @@ class Canvas {
     void fill(const Rect& rect, Rgba8 color);
     void fill(const std::vector<Point>& polygon, Rgba8 color);
     void line(const std::vector<Point>& points, double line_width, Rgba8 color, bool closed);
-    // Adds lines to the path. They are then drawn as one, so that a translucent color does not add
-    // up where they cross.
+    // Adds lines to the path. draw_path() draws all lines of the path as one, so that a translucent
+    // color does not add up where lines cross.
     void add_to_path(const std::vector<Point>& points, Point offset = {});
     void draw_path(double line_width, Rgba8 color);  // draws the path and begins a new one
     // Restrict drawing to a polygon, or to the part that two polygons share. This holds until the

@@ -12,8 +12,7 @@
 
 namespace stormcellar::render {
 
-// The colors and the opacity that lie in front of a background. Colors are 0..1, premultiplied by
-// alpha.
+// The colors and the opacity in front of a background. Colors are 0..1, premultiplied by alpha.
 struct Layer {
     int width = 0, height = 0;
     std::vector<float> rgba;

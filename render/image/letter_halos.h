@@ -35,7 +35,7 @@ struct CoverMask {
 class LetterHalos {
   public:
     // Returns the outline of a text, drawn with a pen of this width. The text begins at x on its
-    // baseline y. `bold` and `size` say which font of the canvas it has.
+    // baseline y. `bold` and `size` say which font of the canvas the text has.
     [[nodiscard]] CoverMask halo_of(_cairo_scaled_font* font, bool bold, double size,
                                     const char* text, int x, int y, double pen);
 
@@ -46,7 +46,7 @@ class LetterHalos {
     std::map<Key, CoverMask> letters_;
 };
 
-// Paints the part of the picture that the mask covers with the context's source.
+// Paints with the context's source the part of the picture that the mask covers.
 void paint_cover(_cairo* context, CoverMask& mask);
 
 }  // namespace stormcellar::render

@@ -1,9 +1,9 @@
 // render/image/shades.h -- the quiet colors behind and around the echo, for each theme.
 //
-// The colors of the ground are nearly gray. Their lightness is far from that of echo, so that none
-// looks like a reflectivity. Letters have a contrast of 4.5 or more against every background but
-// echo; over echo, they have this contrast against their halo. Lines of the map have less contrast,
-// so that they stay behind the echo (tests/render/shades_test.cpp has the figures).
+// The colors of the ground are nearly gray. Their lightness is far from that of echo, so that no
+// ground looks like a reflectivity. Letters have a contrast of 4.5 or more against every background
+// but echo; over echo, they have this contrast against their halo. Lines of the map have less
+// contrast, so that they stay behind the echo (tests/render/shades_test.cpp has the figures).
 #pragma once
 
 #include "stormcellar/render/image.h"
@@ -99,7 +99,7 @@ inline constexpr Shades light = {
 }
 
 // Returns the color of ground that was not seen, with thin diagonal lines, at a pixel of the whole
-// picture. The distance between lines is `scale` times the usual one.
+// picture. The distance between lines is `scale` times the usual distance.
 [[nodiscard]] Rgba8 hatched(Rgba8 ground, Rgba8 lines, int x, int y, double scale);
 
 }  // namespace stormcellar::render

@@ -5,7 +5,7 @@
 // a picture uses one of them.
 //
 // Format, version 2. Numbers are little-endian; `v` is an unsigned LEB128 number of at most 32
-// bits, and `z` is a zigzag one (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U
+// bits, and `z` is a zigzag number (0, -1, 1, -2...). Longitudes and latitudes are in units of 1/U
 // degrees on WGS84.
 //
 //   offset size
@@ -27,8 +27,8 @@
 //
 // Threads   Immutable once made. A BaseMap refers to the bytes from which it was made.
 // Errors    empty, truncated, corrupt (also by its checksum), unsupported (another version).
-//           Contradictions in bytes with a correct checksum are corrupt too; points_of() finds the
-//           last of these contradictions.
+//           Contradictions in bytes with a correct checksum are corrupt too; only points_of() finds
+//           contradictions among the points of a line.
 // Accuracy  As accurate as the sources (docs/data-sources.md). The format adds 1/(2 U) degrees,
 //           which is 6 m.
 #pragma once

@@ -1,15 +1,15 @@
-// render/map/beam_glyphs.h -- shows the wind of a sweep as one radar knows it: glyphs of the part
-// along the beam and of the part that no beam measured.
+// render/map/beam_glyphs.h -- glyphs of the wind of a sweep. They show the wind along the beam, and
+// that the wind across the beam is unknown.
 //
-// A glyph stands on a gate with a velocity. A line along the beam starts at the gate and ends, with
-// a head, where the air goes; its length is proportional to the speed along the beam. A faint disc
-// across the beam stands for the rest of the wind, which one radar cannot see. So no glyph is an
+// A glyph is at a gate with a velocity. A line along the beam starts at the gate and ends, with a
+// head, where the air goes; its length is proportional to the speed along the beam. A faint disc
+// across the beam represents the rest of the wind, which one radar cannot see. So no glyph is an
 // arrow of the wind. Speeds below `calm_mps` have a dot and no head. Gates that are ambiguous,
 // range folded, without echo or not seen have no glyph.
 //
 // The glyphs are on a lattice of the picture, so they stay in place from frame to frame of a loop.
-// A glyph shows one gate, the one under the center of its disc: values are not mixed. Glyphs that
-// would overlap an earlier glyph or a mark of the map are left out.
+// A glyph shows the one gate under the center of its disc: values are not mixed. Glyphs that would
+// overlap an earlier glyph or a mark of the map are left out.
 //
 // Accuracy  Directions are those of the beam over the ground of the map to 0.5 degrees, lengths are
 //           exact (tests/render/beam_glyphs_test.cpp). A line has its full length whatever the

@@ -3,12 +3,12 @@
 //
 // A solid line leads through the earlier places of the cell to its center. A dashed line leads on
 // to the forecasts, with a tick at each and circles of the error (one standard deviation along each
-// axis) after 30 and 60 minutes. A cell without motion has neither. All of these are on the ground.
-// In a volume, a stem leads up to the height of the largest reflectivity, where the label is. The
-// label has the largest reflectivity and, if it is known, MESH.
+// axis) after 30 and 60 minutes. A cell without motion has neither line. All of these are on the
+// ground. In a volume, a stem leads up to the height of the largest reflectivity, where the label
+// is. The label has the largest reflectivity and, if it is known, MESH.
 //
-// If the picture is later than the volume of the cells, as between two volumes or in a nowcast, the
-// cells with a motion are moved on with it, and forecasts that are past are left out.
+// If the picture is later than the volume of the cells, as between two volumes or in a nowcast,
+// each cell with a motion is moved on by its motion, and forecasts that are past are left out.
 //
 // Labels are planned from the strongest cell down, beside the line of motion if there is room, and
 // never over another mark. A label without room has only the reflectivity, or is left out; the ring
@@ -37,8 +37,8 @@ struct CellMark {
     std::optional<MarkText> label;
 };
 
-// Plans the marks of `lines.cells`, the strongest first; none if that is null. `fonts` is null for
-// a picture without labels. Takes the places of rings and labels.
+// Plans the marks of `lines.cells`, the strongest first; no marks if `lines.cells` is null. `fonts`
+// is null for a picture without labels. Takes the places of rings and labels.
 [[nodiscard]] std::vector<CellMark> plan_cell_marks(const Fonts* fonts, const MapLines& lines,
                                                     LabelPlaces& places);
 

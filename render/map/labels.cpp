@@ -113,7 +113,7 @@ std::string view_line(const Scene& scene, const FrameFacts& facts, double ring_s
 
 // Places the product and the warnings on one line, so that nothing moves from frame to frame of a
 // loop. The line ends `room` pixels to the right of `left`. Short warnings take only the width that
-// they need, and long ones at most four tenths of the line.
+// they need, and long warnings take at most four tenths of the line.
 void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, double baseline,
                  double room, double size) {
     const double gap = builder.scaled(14);
@@ -127,8 +127,9 @@ void put_product(LabelBuilder& builder, const HeaderTexts& texts, double left, d
     builder.put(texts.warnings, left + width + gap, baseline, room - width - gap, warning);
 }
 
-// Takes room for the small map of a section: from the colors if they are at the right, or from the
-// colors below, or, in a tall picture, from the section itself, below the title.
+// Takes room for the small map of a section. In a wide picture the room is taken from the colors at
+// the right, in a square picture from the colors below, and in a tall picture from the section
+// itself, below the title.
 void make_room_for_inset(const PictureSpace& space, const LabelBuilder& builder,
                          LabelLayout& layout, Rect& colors) {
     const double gap = std::round(builder.scaled(8));

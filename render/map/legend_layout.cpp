@@ -72,7 +72,8 @@ double lay_out_lying_bar(LabelBuilder& builder, const Legend& legend, const Rect
     return baseline;
 }
 
-// An item in the line of the legend. It is a row, or a heading or a note; these have no swatch.
+// An item in the line of the legend. It is a row, a heading or a note; headings and notes have no
+// swatch.
 struct LineItem {
     std::string text;
     LabelStyle style;

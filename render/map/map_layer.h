@@ -1,13 +1,13 @@
 // render/map/map_layer.h -- projects, clips and thins the base map for one picture.
 //
 // The layer is made once for the geometry of a grid, a view and a size, and the frames of a loop
-// share it. Every vertex is projected exactly. A segment is straight in degrees in the source. It
-// is divided until it follows its curve on the picture's ground to 0.2 pixels, where the view is
-// finest. Lines continue beyond the grid, as far as the ground is shown (render/products/ground.h).
-// The layer uses the coarsest level of detail that is thinned by at most 0.7 pixels, or else the
-// finest level. A point that is less than 0.3 pixels from the one before it is dropped. Counties
-// are shown if 45 km are at least 30 pixels (in a picture of 796 x 532). Points that the view does
-// not project are not shown.
+// share it. Every vertex is projected exactly. In the source, a segment is straight in degrees. On
+// the picture's ground it is a curve, so it is divided into straight pieces that are off by at most
+// 0.2 pixels where the view is finest. Lines continue beyond the grid, as far as the ground is
+// shown (render/products/ground.h). The layer uses the coarsest level of detail that is off by at
+// most 0.7 pixels, or else the finest level. A point that is less than 0.3 pixels from the previous
+// point is dropped. Counties are shown if 45 km are at least 30 pixels (in a picture of 796 x 532).
+// Points that the view cannot project are not shown.
 //
 // Accuracy  1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp).
 //           For the accuracy of that map see docs/data-sources.md.

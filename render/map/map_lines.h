@@ -43,9 +43,9 @@ struct MapLines {
 
 // Returns the spacing of the rings. If the scene requests a spacing, it is rounded to a round
 // number in the unit of distances (kilometers are not rounded), and then doubled until there are at
-// most 20 rings. Otherwise (Scene::usual_rings) it starts at 50 km and is doubled until at most six
-// rings reach the nearest side of the grid; it is less than 50 km if the grid is too small for one
-// ring.
+// most 20 rings. Otherwise (Scene::usual_rings) the spacing starts at 50 km and is doubled until at
+// most six rings reach the nearest side of the grid; the spacing is less than 50 km if the grid is
+// too small for one ring.
 [[nodiscard]] double drawn_ring_spacing(const grid::GridSpec& spec, const Scene& scene);
 
 // Draws a thin line around the ground of the grid.

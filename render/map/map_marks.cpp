@@ -117,7 +117,8 @@ class Planner {
         }
     }
 
-    // Puts the key into the first free corner, or else into the first that the arrow leaves.
+    // Puts the key into the first free corner, or else into the first corner without the north
+    // arrow.
     void plan_glyph_key() {
         const double w = lines_.glyph_key.x;
         const double h = lines_.glyph_key.y;
@@ -222,7 +223,7 @@ class Planner {
     }
 
     // Places the scale of heights at the leftmost upright edge of the box in the picture. If two
-    // edges are equally far left, takes the farther one, which is higher in the picture. The edge
+    // edges are equally far left, takes the farther edge, which is higher in the picture. The edge
     // is an outline of the box, so no echo is ever behind it.
     void plan_heights() {
         std::optional<GroundPoint> edge;
@@ -313,7 +314,7 @@ class Planner {
             std::vector<Point> corners = {Point{right, level}, Point{left, level},
                                           Point{middle, city.at.y - scaled(3.5) - 0.3 * size},
                                           Point{middle, city.at.y + 0.8 * size + scaled(5)}};
-            // Try corners where a name would cross the edge of the grid last, because the edge
+            // Try last the corners where a name would cross the edge of the grid, because the edge
             // seems to cut the name.
             std::stable_partition(corners.begin(), corners.end(), [&](const Point& corner) {
                 return over_grid(corner) && over_grid({corner.x + width, corner.y});

@@ -2,16 +2,16 @@
 // heights, north and a scale bar.
 //
 // Marks are planned first and drawn later, so that none overlaps another. The north arrow and the
-// scale bar take a corner, the lower left corner unless a site is there, and the key of beam glyphs
-// another corner. If every corner has a site, the arrow and the bar hide the site at the lower
-// left. Then come the names of sites, heights, distances, and cities, the largest city first. A
-// name without room is left out; then the mark of a site is still drawn, but the mark of a city is
-// not. Everything is inside the picture, and plans are in pixels of the picture.
+// scale bar take the lower left corner, or another corner if a site is there. The key of beam
+// glyphs takes a further corner. If every corner has a site, the arrow and the bar hide the site at
+// the lower left. Then come the names of sites, heights, distances, and cities, the largest city
+// first. If a name has no room, the name is left out, and with it the mark of a city, but not the
+// mark of a site. Everything is inside the picture, and plans are in pixels of the picture.
 //
-// The length of the scale bar is true across the middle of the picture. It is 1, 2 or 5 times a
-// power of ten, measured along WGS84 (to 1 % at worst). If the middle of the view shows no ground,
-// there is no bar. Planning asks the view only for the places of points, and for the ground under
-// pixels.
+// The length of the scale bar is true across the middle of the picture. The length is 1, 2 or 5
+// times a power of ten, measured along WGS84 (to 1 % at worst). If the middle of the view shows no
+// ground, there is no bar. Planning asks the view only for the places of points, and for the ground
+// under pixels.
 //
 // Threads   Plain data; pure functions, except that they draw on the canvas.
 #pragma once

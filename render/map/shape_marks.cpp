@@ -21,7 +21,7 @@ constexpr int most_parts = 200'000;  // of all edges
 // Edges may be this far beyond the grid.
 constexpr double near_deg = 10;
 constexpr double meters_a_degree = 111e3;
-// Points further away than this are as good as unseen.
+// Points farther away than this count as not seen.
 constexpr double most_pixels = 1e5;
 
 class ShapePlanner {
@@ -85,8 +85,8 @@ class ShapePlanner {
         });
     }
 
-    // Returns in how many parts an edge is split: one, after a very large number of parts of all
-    // edges.
+    // Returns the number of parts into which an edge is split. Returns 1 if most_parts does not
+    // allow the edge's parts.
     [[nodiscard]] int parts_of(double north_deg, double east_deg) {
         const double length_deg = std::max(std::abs(north_deg), std::abs(east_deg));
         const int parts = std::max(1, static_cast<int>(std::ceil(length_deg / longest_part_deg)));

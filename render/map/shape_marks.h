@@ -1,4 +1,4 @@
-// render/map/shape_marks.h -- plans and draws the shapes of files of others: lines and labeled
+// render/map/shape_marks.h -- plans and draws shapes from files that others made: lines and labeled
 // points (stormcellar/render/overlays.h) that are in force at the time of the picture.
 //
 // Edges are straight in latitude and longitude, as RFC 7946 has it, and go the short way around the
@@ -25,8 +25,9 @@ struct ShapeMark {
     std::optional<MarkText> label;
 };
 
-// Plans the marks of `lines.shapes`, in their order; none if that is null. `fonts` is null for a
-// picture without labels. Takes the places of dots and labels; a label without room is left out.
+// Plans the marks of `lines.shapes`, in their order; no marks if `lines.shapes` is null. `fonts` is
+// null for a picture without labels. Takes the places of dots and labels; a label without room is
+// left out.
 [[nodiscard]] std::vector<ShapeMark> plan_shape_marks(const Fonts* fonts, const MapLines& lines,
                                                       LabelPlaces& places);
 

@@ -20,7 +20,7 @@ namespace stormcellar::render {
 
 // Fits the scene to the echo of all grids that will be shown; `view` and `facts` are those of one
 // of these grids. `orbits` is true if the camera will move around the echo. If `last` holds a view
-// that is near the fitted one, the scene gets that view instead. Then stores the view of the scene
+// that is near the fitted view, the scene gets that view instead. Then stores the view of the scene
 // in `last`. Errors: those of fit_scene().
 [[nodiscard]] Result<FittedView> fit_picture(const EchoOutline& outline,
                                              const grid::BrickView& view, const FrameFacts& facts,

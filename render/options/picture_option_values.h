@@ -1,5 +1,6 @@
 // render/options/picture_option_values.h -- functions for picture options whose value is more than
-// a field. They check and set it; the table (picture_option_rows.cpp) names them.
+// a field. The functions check and set the value; the table (picture_option_rows.cpp) names the
+// functions.
 //
 // Threads   Pure, except that they change the settings that they are given.
 // Errors    bad_argument. The message gives the reason for the refusal without the option's name.
@@ -39,7 +40,8 @@ void set_sun(PictureSettings to, std::span<const double> sun);
 [[nodiscard]] Status check_colors(const std::string& name);
 [[nodiscard]] Status check_smoothing(const std::string& name);
 [[nodiscard]] Status check_overlay(const std::string& words);
-// Returns the overlay of a scene file in this directory, with its files there.
+// Returns the words of an overlay with the names of files resolved in this directory, which is that
+// of the scene file.
 [[nodiscard]] std::string overlay_beside(const std::filesystem::path& directory,
                                          const std::string& words);
 // Return the known names, for help.

@@ -9,7 +9,8 @@
 namespace stormcellar::render {
 namespace {
 
-// Completes the help of an option. Writes the ends of its range, or its possible texts, into it.
+// Completes the help of an option. Writes the ends of the option's range, or its possible texts,
+// into the help.
 struct HelpOf {
     std::string help;
     std::string operator()(const WholeValue& value) const { return with(value.range); }

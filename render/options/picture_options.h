@@ -1,10 +1,10 @@
 // render/options/picture_options.h -- the table of the options of a picture.
 //
 // Each row is one option. It has the option's name on the command line, its key in a scene file,
-// the values that it takes, the products that use it, its help, and the setting that it sets. This
-// table is read by the command line, by the reader of scene files, for the addresses of the data
-// server, and to check which products use an option (scene_options.h). --help, the manual pages and
-// the completions of shells are made from the command line. The rows are in
+// the values that it takes, the products that use it, its help, and the setting that it sets. The
+// command line, the reader of scene files and the addresses of the data server take their options
+// from this table. scene_options.h checks with the table which products use an option. --help, the
+// manual pages and the completions of shells are made from the command line. The rows are in
 // picture_option_rows.cpp.
 //
 // Threads   The table is constant.

@@ -94,7 +94,7 @@ struct OutOfRange {
 Status check_ranges(SceneOptions options) {
     const PictureSettings to{options, options.scene, nullptr};
     for (const PictureOption& row : picture_options()) {
-        // A value that was not given may be out of range, because that means the default.
+        // An option that was not given may have a value out of range, which means the default.
         const bool is_given = contains(options.typed, row) || contains(options.in_file, row);
         if (row.is_of_loop() || !is_given) continue;
         const auto said = std::visit(OutOfRange{to}, row.value);

@@ -1,8 +1,8 @@
 // render/options/scene_options.h -- the options of a picture, and the scene that is made from them.
 //
 // The command line, scene files and the addresses of the data server set these options, through the
-// table of picture_options.h. All of them then get the scene from scene_of(). So the same options
-// give the same picture.
+// table of picture_options.h. In all three cases, scene_of() then makes the scene. So the same
+// options give the same picture.
 //
 // Threads   Plain data and pure functions.
 // Errors    See each function.
@@ -48,8 +48,8 @@ struct SceneOptions {
     bool no_labels = false;
     int threads = 0;  // 0: as many as the machine has
     Scene scene;      // incomplete: options set it directly; use scene_of()
-    // The options that were typed, the options in the scene file, and the product in that file; it
-    // is empty if there is no file.
+    // The options that were typed, the options in the scene file, and the product in that file,
+    // which is empty without a file.
     ChosenOptions typed;
     ChosenOptions in_file;
     std::string file_product;
@@ -81,13 +81,13 @@ struct LoopChoices {
 
 // Returns true if the overlay marks storm cells.
 [[nodiscard]] bool marks_cells(const SceneOptions& options);
-// Returns the names of the files of the overlay: "a.geojson, b.txt".
+// Returns the names of the overlay's files: "a.geojson, b.txt".
 [[nodiscard]] std::string shape_names(const SceneOptions& options);
 // Reads the files of the overlay; none if it has no files. Errors: those of read_shape_file().
 [[nodiscard]] Result<std::optional<ShapeOverlay>> read_shapes(const SceneOptions& options);
 
-// Returns the name of the moment, which is that of the product if it is made of one moment alone
-// and no moment is given.
+// Returns the name of the moment. If none is given, and the product is made of one moment only,
+// returns that moment.
 [[nodiscard]] std::string moment_asked(const SceneOptions& options);
 
 // Refuses a quality, freezing levels of HCA, and a rung of dealiasing and a storm motion other than
@@ -109,9 +109,9 @@ struct LoopChoices {
 [[nodiscard]] int thread_count(const SceneOptions& options);
 
 // Returns the facts of a grid for its labels. The local time is in the zone `time_zone` (IANA), or,
-// if that is empty, in the zone of the machine. It is left out if the zone is UTC or is not known.
-// The facts have the age of the newest radial at `now` only if the grid is younger than an hour;
-// for an archive, it would say nothing about the radar.
+// if that is empty, in the zone of the machine. The local time is left out if the zone is UTC or is
+// not known. The facts have the age of the newest radial at `now` only if the grid is younger than
+// an hour; for an archive, the age would say nothing about the radar.
 [[nodiscard]] FrameFacts frame_facts_of(const std::string& domain,
                                         const cache::GridDescription& description,
                                         const std::string& time_zone, UtcTime now = now_utc());

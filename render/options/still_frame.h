@@ -24,8 +24,8 @@
 
 namespace stormcellar::render {
 
-// The grid and the options from which a still is drawn. The objects that it refers to must outlive
-// it.
+// The grid and the options from which a still is drawn. The referenced objects must outlive the
+// source.
 struct StillSource {
     const std::string& domain;
     const grid::BrickView& view;

@@ -21,8 +21,8 @@
 namespace stormcellar::render {
 
 // Returns the elevation or the number that the scene asks for. If several sweeps have this angle,
-// the wish means the one that is nearest in time to `nearest_to`, or the newest if no time is
-// given.
+// the wish means the sweep that is nearest in time to `nearest_to`, or the newest sweep if no time
+// is given.
 [[nodiscard]] grid::SweepWish sweep_wish_of(const Scene& scene,
                                             std::optional<UtcTime> nearest_to = {});
 

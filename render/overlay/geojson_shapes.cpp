@@ -29,8 +29,8 @@ std::string text_of(const Json& properties, const Names& names) {
     return {};
 }
 
-// Returns the time of the first of these properties. The last name is a common word, so that its
-// property may be something else than a time.
+// Returns the time of the first of these properties that is present. The last name is a common
+// word, so if its property is not a time, returns none.
 template <class Names>
 Result<std::optional<UtcTime>> time_of(const Json& properties, const Names& names) {
     const std::string text = text_of(properties, names);
@@ -76,7 +76,7 @@ Result<OverlayShape> style_of(const Json& feature) {
     return style;
 }
 
-// A kind of geometry: how many lists its points or lines are within.
+// A kind of geometry. Its points or lines are nested in `lists` lists.
 struct Kind {
     std::string_view type;
     int lists;
@@ -146,7 +146,7 @@ class GeoJsonReader {
         return read_places(*places, kind->lists, kind->is_of_points, style);
     }
 
-    // Reads a point or a line, within this many lists.
+    // Reads points or lines that are nested in this many lists.
     Status read_places(const Json& places, int lists, bool is_of_points,
                        const OverlayShape& style) {
         if (!places.is_array()) return fail(ErrorCode::corrupt, "its coordinates are no list");
@@ -157,7 +157,7 @@ class GeoJsonReader {
     }
 
     Status add_point(const Json& place, const OverlayShape& style) {
-        if (place.empty()) return {};  // RFC 7946: an empty geometry is like none
+        if (place.empty()) return {};  // RFC 7946: an empty geometry is a missing geometry
         OverlayShape point = style;
         if (Status added = take_place(point, place); !added) return added;
         taken.shapes.push_back(std::move(point));

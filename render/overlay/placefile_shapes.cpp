@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Splits at commas, but not inside quotes, which it removes.
+// Splits a line at commas that are not inside quotes, and removes the quotes.
 std::vector<std::string> fields_of(std::string_view text) {
     std::vector<std::string> fields(1);
     bool is_quoted = false;
@@ -203,7 +203,7 @@ class PlacefileReader {
         return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
     }
 
-    // Adds the line, and begins another one like it.
+    // Adds the line, and begins another line like it.
     void end_line() {
         OverlayShape next = shape_;
         next.points.clear();

@@ -30,8 +30,8 @@ namespace stormcellar::render {
 
 inline constexpr std::size_t most_shape_points = 1'000'000;
 
-// Reads a file of either format, which the text's first letter tells: GeoJSON begins with a brace.
-// The overlay has no name.
+// Reads a file of either format. The text's first letter tells the format: GeoJSON begins with a
+// brace. The overlay has no name.
 [[nodiscard]] Result<ShapeOverlay> read_shape_file(const std::filesystem::path& file);
 
 [[nodiscard]] Result<ShapeOverlay> shapes_of_geojson(std::string_view text);

@@ -6,7 +6,7 @@
 //   slices       32 ... 2048; each effect doubles the number: slices_64, slices_128, ...
 //   integration  the nearer value of each step; value_span: all values between the ends of the
 //                step; step_attenuation: all values in their order, so that near values hide far
-//                ones
+//                values
 //   pixels       interpolated between rays where the picture is nearly straight; every_pixel: a ray
 //                for each pixel
 //   surface      equally bright in every direction; gradient_light: lighter toward the sun and

@@ -2,9 +2,9 @@
 // of each effect in it.
 //
 // A size is the 99th percentile of CIEDE2000 over all pixels of the picture, drawn without labels
-// over the page's color. It compares a rung with the rung below; all other steps are exact. The
-// planned picture is compared with the picture of the exact chain, so nothing is estimated. But
-// that picture must be drawn once.
+// over the page's color. The size compares a rung with the rung below; all other steps are exact.
+// The planned picture is compared with the picture of the exact chain, so nothing is estimated. But
+// the exact picture must be drawn once.
 //
 // Threads   One thread at a time may use a VolumeScene. It draws with `threads` threads.
 #pragma once
@@ -44,7 +44,7 @@ class VolumeScene {
     std::deque<std::pair<VolumeChoice, Drawn>> drawn_;  // a deque, so that references stay valid
 };
 
-// Says which effects to predict: those that the scene asks for, which a plan needs, or all.
+// The effects to predict: those that the scene asks for, which are enough for a plan, or all.
 enum class Predicted { asked, all };
 
 // Predicts the size and cost of each effect for this scene. Does not change settings.
@@ -64,7 +64,8 @@ struct VolumePlan {
                                              Predicted which = Predicted::asked);
 
 // Makes a row for each rung of each step that the scene asks for. The row compares two pictures:
-// one has this rung, and all other steps exact; the other is that of the exact chain.
+// one is drawn with this rung and exactly in all other steps; the other is drawn by the exact
+// chain.
 [[nodiscard]] Result<std::vector<accuracy::LadderRow>> run_ladder(VolumeScene& scene,
                                                                   const accuracy::Chain& chain);
 

@@ -44,15 +44,15 @@ class CellMixer {
     std::size_t count_ = 0;
 };
 
-// The two levels around a height, and the share of the upper one. Both are the same level if the
-// height is at a level. For heights below the first level or above the last, but within its cells,
-// both are that level.
+// The two levels around a height, and the share of the upper level. If the height is at a level,
+// both are this level. For heights below the first level or above the last, but within the cells of
+// that level, both are that level.
 struct LevelPair {
     int lower = 0, upper = 0;
     double upper_share = 0;
 };
-// Returns the levels around a height. Errors: bad_argument if the grid has no cells there; the
-// message gives its heights.
+// Returns the levels around a height. Errors: bad_argument if the grid has no cells at the height;
+// the message gives the heights of the grid.
 [[nodiscard]] Result<LevelPair> levels_about(const grid::GridSpec& spec, double height_m);
 
 }  // namespace stormcellar::render

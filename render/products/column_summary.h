@@ -21,9 +21,9 @@ struct ColumnSummary {
     bool has_range_folded = false;
     bool has_ambiguous = false;
 
-    // Returns the state of the column maximum. It is a value if any cell has one. Otherwise it is
-    // ambiguous if any cell is, else range folded if any cell is, because the echo behind it is
-    // unknown, else no echo if any cell was seen.
+    // Returns the state of the column maximum. It is the first of value, ambiguous, range folded
+    // (where echo is unknown) and no echo that some cell has, or not seen if no cell has any of
+    // these states.
     [[nodiscard]] grid::CellStatus status() const {
         if (max_code > 0) return grid::CellStatus::value;
         if (has_ambiguous) return grid::CellStatus::ambiguous;

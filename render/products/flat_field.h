@@ -11,11 +11,11 @@
 //               is not known, and the height is marked "at least".
 //   vil         kg/m2: vertically integrated liquid (stormcellar/retrieve/vertical_liquid.h). The
 //               first and the last level reach half a spacing beyond themselves, as cells do.
-//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. It is
-//                 a mean density, so tall and low storms can be compared; hail has a high density.
-//                 Columns with an echo top have a value. If the top may be higher, or if VIL lacks
-//                 cells that were not seen, the result covers the part that was seen. A top of less
-//                 than least_depth_m counts as least_depth_m.
+//   vil_density   g/m3: the VIL of a column over the height of its echo top above the radar. The
+//                 result is a mean density, so tall and low storms can be compared; hail has a high
+//                 density. Columns with an echo top have a value. If the top may be higher, or if
+//                 VIL lacks cells that were not seen, the result covers the part that was seen. A
+//                 top of less than least_depth_m counts as least_depth_m.
 //   maximum_height   km: the height of the lowest cell that has the largest value of the column, if
 //                    that value reaches a threshold.
 //   ppi         The gate of a sweep at the center of each column. A picture looks up each pixel
@@ -31,7 +31,7 @@
 //   rain_total   mm: the cells of a grid of one level, which holds the total.
 // For products of reflectivity or shear, a column without a value is range folded if any cell is
 // range folded, because the echo behind it is unknown; else no echo (below the threshold) if any
-// cell was seen; else not seen. Of shear, such a column may also be ambiguous.
+// cell was seen; else not seen. For shear, such a column may also be ambiguous.
 //
 // Units     Heights are above mean sea level.
 // Threads   Pure functions; the same bits for any number of threads.

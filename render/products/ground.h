@@ -1,8 +1,9 @@
-// render/products/ground.h -- paints flat things: the ground of the 3D view, and 2D products.
+// render/products/ground.h -- paints pictures without depth: the ground of the 3D view, and 2D
+// products.
 //
-// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column that it lies in. If
-// the picture has a map, the ground continues beyond the grid, darker (lighter on a light page).
-// Without a map, the page is seen there. Land and water have shades of their own.
+// Both are opaque pictures, painted pixel by pixel. Each pixel shows the column that contains it.
+// If the picture has a map, the ground continues beyond the grid, darker (lighter on a light page).
+// Without a map, the page is seen beyond the grid. Land and water have shades of their own.
 //
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once
@@ -25,8 +26,9 @@ namespace stormcellar::render {
 // A column that was seen below this height above sea level counts as seen from low down.
 inline constexpr double low_coverage_m = 3000;
 
-// The shades of the ground tell how the columns over it were seen. how_low: from low down, only
-// from higher up, or not at all. whether_seen: seen or not seen, for pictures with haze.
+// The shades of the ground tell how the columns over it were seen. how_low has three shades: seen
+// from low down, seen only from higher up, and not seen. whether_seen, for pictures with haze, has
+// two: seen and not seen.
 enum class GroundTells { how_low, whether_seen };
 
 // The settings for painting the ground.

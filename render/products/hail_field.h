@@ -2,14 +2,14 @@
 // 0 and -20 C err (stormcellar/retrieve/hail.h).
 //
 // A column has a value if echo of more than 40 dBZ reaches above 0 C. The value is marked "at
-// least" if a cell next to such echo, above 0 C, was not seen or is range folded. The states of
-// other columns are those of other products of reflectivity (flat_field.h), with no echo for echo
-// that makes no hail.
+// least" if a cell next to such echo, above 0 C, was not seen or is range folded. Other columns
+// have the states of other products of reflectivity (flat_field.h); echo that makes no hail counts
+// as no echo.
 //
 // Method    Only bricks whose largest value makes hail are read. The flux of each code is computed
 //           once.
 // Units     Heights above mean sea level, in meters; values as in retrieve::Hail.
-// Accuracy  As retrieve::hail_of_column() of the cells; tests/render/hail_field_test.cpp compares.
+// Accuracy  Equal to retrieve::hail_of_column() of the cells (tests/render/hail_field_test.cpp).
 //           Codes of 0.5 dBZ change MESH by up to 0.3 mm (KTLX, 1999-05-03).
 // Threads   Pure functions; the same bits for any number of threads.
 #pragma once

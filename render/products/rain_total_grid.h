@@ -2,7 +2,7 @@
 // or REF of several volumes.
 //
 // The grid has the columns of the volumes at their lowest level, and the moment RATE. Its values
-// are millimeters, the rate that gives the total in one hour. A column that was not seen for more
+// are millimeters: rates that would give the total in one hour. A column that was not seen for more
 // than a tenth of the time is ambiguous. A note (retrieve/rain/rain_note.h) says which time the
 // total covers, how many minutes of it have no volumes, and how many columns were not seen all the
 // time.
@@ -29,13 +29,13 @@ class RainTotalGrid {
     explicit RainTotalGrid(std::optional<retrieve::RainSpan> span = std::nullopt) : span_(span) {}
 
     // Adds the rates of a later volume: its grid, or the lowest cells alone. Errors: bad_argument
-    // if it is of another radar, or if no mosaic is of several radars; those of RainTotal::add().
+    // for volumes of different radars, unless they are mosaics; those of RainTotal::add().
     [[nodiscard]] Status add(const grid::BrickView& rate, const cache::GridDescription& description,
                              int threads);
     // Ends the total at the end of the span. Call once, after the last volume.
     void close();
 
-    // These need at least two volumes; errors: bad_argument.
+    // Returns the total of each column. Errors: bad_argument for fewer than two volumes.
     [[nodiscard]] Result<grid::BrickGrid> bricks() const;
     // Returns the description of the newest volume at the end of the total, with the note.
     [[nodiscard]] cache::GridDescription description() const;

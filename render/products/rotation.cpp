@@ -98,7 +98,7 @@ std::vector<ColumnCell> take_connected(CellsByIndex& strong, const CellBox& box)
     return members;
 }
 
-// Returns how much of the neighborhood of a cell is a cell at a distance along one axis.
+// Returns the weight, along one axis, of a cell at this distance from the middle of a neighborhood.
 float weight_at(int distance) {
     constexpr std::array<float, 3> weights = {0.5F, 0.25F, 0};
     return weights[static_cast<std::size_t>(std::abs(distance))];

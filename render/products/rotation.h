@@ -1,11 +1,12 @@
 // render/products/rotation.h -- columns of rotation in a grid of azimuthal shear (AZSH).
 //
-// A column is a set of neighboring cells (of 26) whose shear is at least least_rotation in one
-// sense of rotation, and whose lowest and highest levels are at least least_column_m apart. So
-// cells of noise alone make no column. The result holds, for each cell about a column, the share of
-// its neighborhood that belongs to columns, weighted 1-2-1 along each axis: above 0 if the rotation
-// is counterclockwise, below 0 if it is clockwise. The surface at column_share is the column,
-// rounded for the eye alone. All other cells are not seen.
+// A column is a set of connected cells (each cell has 26 neighbors). Their shear is at least
+// least_rotation in one sense of rotation, and the lowest and the highest level of the set are at
+// least least_column_m apart. So cells of noise alone make no column. For each cell near a column,
+// the result has the share of the cell's neighborhood that belongs to columns, weighted 1-2-1 along
+// each axis. The share is above 0 if the rotation is counterclockwise, and below 0 if it is
+// clockwise. All other cells are not seen. The surface at column_share is the column, rounded only
+// to look better.
 //
 // Units     Shear in 0.001/s, as AZSH.
 // Accuracy  Shares are exact to half a step of 0.01 (tests/render/rotation_test.cpp). The limit of

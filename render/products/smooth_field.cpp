@@ -70,8 +70,8 @@ float SmoothField::value_at(int x, int y, float beyond_x, float beyond_y) const 
             values[k] = field_.values[cell];
         }
     }
-    // The result stays within the range of the middle four cells. Each of these four that has no
-    // value gets the mean of those that have one.
+    // The result stays within the range of the middle four cells. Of these four, each cell without
+    // a value gets the mean of the cells with a value.
     constexpr std::array<std::size_t, 4> middle = {5, 6, 9, 10};
     float sum = 0, count = 0, least = 0, largest = 0;
     for (const std::size_t k : middle) {

@@ -1,14 +1,15 @@
-// render/products/smooth_field.h -- smooths a map between the cells of its grid, for the eye alone.
+// render/products/smooth_field.h -- smooths a map between the cells of its grid, only for looks.
 //
 // A plain map shows each cell as a square. In a smoothed map, values change smoothly from cell to
-// cell, by a cubic of Catmull and Rom through 4 x 4 cells that never leaves the range of the four
-// cells around a place. The state is decided first. Then values are mixed only with other values:
+// cell. They follow a cubic of Catmull and Rom through 4 x 4 cells, which never leaves the range of
+// the four cells around a place. The state is decided first. Then values are mixed only with other
+// values:
 //   state    If each of the four cells has a value or no echo, the result is a value if the cells
 //            with values have half of the bilinear weight or more, else no echo. Otherwise the
 //            result has the state of the nearest cell.
-//   value    The cubic needs a value in every cell. So each of the four that has none gets the mean
-//            of the others, and each of the twelve cells around them that has none gets the value
-//            of the nearest of the four.
+//   value    The cubic needs a value in every cell. So if one of the four cells has no value, it
+//            gets the mean of the cells with a value. If one of the twelve cells around the four
+//            has no value, it gets the value of the nearest of the four.
 // At the center of a cell, the result is exactly the cell. Beyond the outermost centers, the cells
 // at the edge are repeated.
 //

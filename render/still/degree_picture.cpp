@@ -35,7 +35,7 @@ PixelSize size_of(const grid::GridSpec& spec, const EarthBox& box) {
     return {whole(across), whole(down)};
 }
 
-// The places on the grid of the corners of a mesh over the pixels.
+// A mesh over the pixels, with the place on the grid for each corner.
 class DegreeMesh {
   public:
     DegreeMesh(const grid::GridProjection& projection, const EarthBox& box, PixelSize size,

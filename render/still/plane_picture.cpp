@@ -144,9 +144,9 @@ class PlaceColors {
     Rgba8 last_color_{};
 };
 
-// A square of pixels. corners[0] is the center of the first pixel, at the top left, and [1] is the
-// center of the pixel just beyond the square at the right. [2] and [3] are those below, in the row
-// just beyond the square.
+// A square of pixels. corners[0] is the center of the first pixel, at the top left; corners[1] is
+// the center of the pixel just beyond the square at the right. corners[2] and corners[3] are the
+// same in the row just below the square.
 struct Mesh {
     int left = 0, top = 0, side = 0;
     std::array<ColumnPoint, 4> corners{};

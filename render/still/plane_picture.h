@@ -73,7 +73,7 @@ struct PlaneMap {
     const grid::SweepLookup* sweep = nullptr;
 };
 
-// Returns false if no pixel of the window can lie on the grid.
+// Returns false if no pixel of the window can be on the grid.
 [[nodiscard]] bool meets(const PlaneWindow& window, const EarthBox& box);
 [[nodiscard]] Image draw_on_plane(const PlaneMap& map, const PlaneWindow& window);
 

@@ -1,5 +1,5 @@
-// Writes JPEG with libjpeg. Colors stand for data, so they are not subsampled, and the quality is
-// high enough to keep the classes of a color table distinct.
+// Writes JPEG with libjpeg. Colors are data, so they are not subsampled, and the quality is high
+// enough to keep the classes of a color table distinct.
 #include <array>
 #include <csetjmp>
 #include <cstdio>

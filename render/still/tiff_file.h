@@ -54,8 +54,8 @@ struct TiffFacts {
 };
 
 // Writes a file. `rasters` are the whole raster and then its overviews, each half as large as the
-// one before. Errors: bad_argument for rasters without pixels, or with bytes that do not fit their
-// size; unsupported for more than the 4 GiB that a TIFF can have; internal if zlib refuses.
+// raster before. Errors: bad_argument for rasters without pixels, or with bytes that do not fit
+// their size; unsupported for more than the 4 GiB that a TIFF can have; internal if zlib refuses.
 [[nodiscard]] Result<std::vector<std::byte>> write_tiff(const std::vector<TiffRaster>& rasters,
                                                         const TiffFacts& facts, int threads);
 

@@ -50,7 +50,7 @@ class EchoOutline {
     // index after the last tile, this is the edge of the grid.
     [[nodiscard]] double west_m(int x) const;
     [[nodiscard]] double south_m(int y) const;
-    // Returns the area that a counted column stands for.
+    // Returns the area that a counted column represents.
     [[nodiscard]] double column_km2() const;
     // Returns the sums of the counts over all tiles.
     [[nodiscard]] std::array<double, all_columns + 1> columns() const;

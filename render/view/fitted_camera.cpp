@@ -18,7 +18,7 @@ constexpr double least_half_m = 15e3;  // of the region, in each direction
 constexpr double filled_share = 0.84;
 constexpr double fitted_field_of_view_deg = 40;
 constexpr double usual_azimuth_deg = 180, farthest_turn_deg = 45;
-// A region with this ratio of length to width, or a larger one, is a line.
+// A region with this ratio of length to width, or with a larger ratio, is a line.
 constexpr double long_ratio = 1.8;
 constexpr double least_top_m = 2e3;
 constexpr double sun_from_camera_deg = 65, sun_height_deg = 40;

@@ -1,13 +1,13 @@
 // render/view/fitted_camera.h -- chooses camera, exaggeration, opacity and sun to suit the echo
 // that is shown.
 //
-// The outline says where the echo of a grid is, or of all grids of a loop, in which the view does
-// not move. fit_view() chooses the parts that the caller leaves to it:
+// The outline says where the echo of a grid is. For a loop it covers the echo of all grids, because
+// the view does not move. fit_view() chooses the parts that the caller leaves to it:
 //   shown    The columns that reach a threshold: the highest of 40, 30, 20 and 5 dBZ that at least
-//            60 km2 reach. If there is none, all columns with a value. Along both axes, the range
-//            of 2 to 98 % of these columns, widened by 12 % and 5 km, is the region to show. If the
-//            threshold is 40 dBZ, columns of the region that reach 35 dBZ are shown, too. For
-//            moments other than REF, all columns with a value are shown.
+//            60 km2 reach. If there is no such threshold, all columns with a value. Along both
+//            axes, the range of 2 to 98 % of these columns, widened by 12 % and 5 km, is the region
+//            to show. If the threshold is 40 dBZ, columns of the region that reach 35 dBZ are
+//            shown, too. For moments other than REF, all columns with a value are shown.
 //   place    As near as possible: the ground under these columns and their tops fill 84 % of the
 //            width or of the height of the picture. The place is solved exactly, without iteration.
 //   azimuth  The camera looks from the south. It sees a long region from its long side, but turns
@@ -29,7 +29,7 @@
 
 namespace stormcellar::render {
 
-// The parts of the view that fit_view() chooses. All others stay as in the scene.
+// The parts of the view that fit_view() chooses. All other parts stay as in the scene.
 struct FitParts {
     bool azimuth = true, tilt = true, field_of_view = true, place = true;
     bool exaggeration = true, opacity = true, sun = true;

@@ -72,8 +72,8 @@ Result<const UnitFacts*> unit_named(std::string_view name) {
 // The units that have been named so far, in the order of `quantities`.
 using NamedUnits = std::array<const UnitFacts*, quantities.size()>;
 
-// Takes the unit for each quantity that it measures and that has no unit yet. Errors: bad_argument
-// if every such quantity already has a unit.
+// Takes the unit for each quantity that the unit measures, unless the quantity already has a unit.
+// Errors: bad_argument if every such quantity already has a unit.
 Status take(const UnitFacts& facts, NamedUnits& named) {
     bool is_used = false;
     const Quantity* taken = nullptr;

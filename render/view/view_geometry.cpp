@@ -23,7 +23,7 @@ Vec3 minus(const Vec3& a, const Vec3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// Sine and cosine, which are exact at quarter turns, because most views are at these.
+// Sine and cosine. They are exact at quarter turns, because most views are at quarter turns.
 struct Turn {
     double sine, cosine;
 };
@@ -126,8 +126,8 @@ void ViewGeometry::fit_picture(const Camera& camera) {
     metres_per_pixel_ = margin * std::max(2 * across / width_, 2 * upright / height_) / camera.zoom;
 }
 
-// Places the camera. The field of view is that of zoom 1. A camera without a place of its own moves
-// back until it sees the whole box.
+// Places the camera. The field of view is that of zoom 1. A camera without an `eye` moves back
+// until it sees the whole box.
 void ViewGeometry::place_eye(const Camera& camera) {
     const double half_angle = 0.5 * camera.field_of_view_deg * std::numbers::pi / 180;
     const double focal = 0.5 * width_ / std::tan(half_angle);

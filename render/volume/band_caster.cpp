@@ -177,8 +177,8 @@ bool BandCaster::bends(int x, int y, int stride, float most) const {
 }
 
 // Fills the half-way pixels of one cell of the grid. If the picture bends at none of the cell's
-// corners, interpolates these pixels; otherwise casts their rays. Beyond the last column and row of
-// the picture there are no pixels to interpolate from, so those rays are always cast.
+// corners, interpolates these pixels; otherwise casts their rays. A cell at the right or lower edge
+// of the picture lacks pixels to interpolate from, so its rays are always cast.
 void BandCaster::refine_cell(Tiles& tiles, int x, int y, int stride, const Bends& bends) const {
     if (x + stride < width_ && y + stride < height_ && !bends.any(x, y)) {
         return interpolate(x, y, stride);

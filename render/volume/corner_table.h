@@ -29,8 +29,8 @@ class CornerTable {
     // without the table.
     [[nodiscard]] static bool serves(const grid::BrickView& view, double samples);
 
-    // Takes the codes of a grid for which serves() is true. It is faster if the last grid had the
-    // same size.
+    // Takes the codes of a grid for which serves() is true. Takes less time if the last grid had
+    // the same size.
     void fill(const grid::BrickView& view, int threads);
 
     [[nodiscard]] const std::byte* words() const {

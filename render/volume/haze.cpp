@@ -48,7 +48,7 @@ class UnseenAir {
                static_cast<std::size_t>(z);
     }
 
-    // Returns the share of unseen cells in a coarse cell, all of which is in one brick.
+    // Returns the share of unseen cells in a coarse cell. Every coarse cell is within one brick.
     static float share_of(const grid::BrickView& view, int x, int y, int z) {
         const grid::GridSpec& spec = *view.spec;
         const std::size_t brick =

@@ -26,7 +26,7 @@ LevelPosition::LevelPosition(const grid::GridSpec& spec, double exaggeration) {
         slope_ = 1 / (spacing * exaggeration);
         offset_ = -heights[0] / spacing;
     }
-    // One extra bucket is for heights that rounding puts after the last one.
+    // One extra bucket is for heights that rounding puts after the last bucket.
     buckets_.assign(bucket_count + 1, 0);
     if (span <= 0) return;
     const double bucket = span * exaggeration / bucket_count;

@@ -164,8 +164,8 @@ std::vector<float> LightVolume::transmittance(const Vec3& towards) const {
         return index(at[0], at[1], at[2]);
     };
     std::vector<float> through(extinction_.size(), 1.0F);
-    // The light that got through each cell of the previous plane. The border of 1 stands for the
-    // clear air outside the grid.
+    // The light that got through each cell of the previous plane. The border of 1 is the clear
+    // air outside the grid.
     const std::size_t row = static_cast<std::size_t>(sizes_[way.v]) + 2 * border;
     std::vector<float> passed((static_cast<std::size_t>(sizes_[way.u]) + 2 * border) * row, 1.0F);
     const auto pass = [&](int plane) {

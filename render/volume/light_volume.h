@@ -1,10 +1,10 @@
 // render/volume/light_volume.h -- computes how much light reaches each part of a volume.
 //
 // The object holds two transmittances of the echo on a coarse grid (4 x 4 columns, 2 levels):
-// toward the sun and, as the mean over nine directions, toward the sky. It is made once for each
-// time step. For each direction, the light is carried from plane to plane along the steepest axis.
-// Each plane reads the previous plane bilinearly, which blurs a shadow by about one coarse cell for
-// each coarse cell that it crosses.
+// toward the sun and, as the mean over nine directions, toward the sky. The object is made once for
+// each time step. For each direction, the light is carried from plane to plane along the steepest
+// axis. Each plane reads the previous plane bilinearly, which blurs a shadow by about one coarse
+// cell for each coarse cell that the shadow crosses.
 //
 // Cost      12 bytes for each coarse cell while it is made, 4 bytes afterward.
 // Threads   Immutable. The same bits for any number of threads.

@@ -47,7 +47,8 @@ struct Steps {
 
 // Makes the rays of the pixels at (px, py), clipped to the box. In a parallel view all rays have
 // the same step; in perspective, each has its own. A ray crosses the two planes of each axis at two
-// values of t. It is inside the box from its last entry to its first exit, over the three axes.
+// values of t. The ray is inside the box from its last entry to its first exit, over the three
+// axes.
 void make_packet(const RayLines& lines, const double* px, const double* py, RayPacket& rays) {
     const Doubles d;
     const hn::Rebind<float, Doubles> f;
@@ -137,7 +138,8 @@ struct Stretch {
 
 }  // namespace
 
-// The start and the step of a ray are linear in the pixel, so three pixels determine those of all.
+// The start and the step of a ray are linear in the pixel, so three pixels determine the rays of
+// all pixels.
 RayMaker::RayMaker(const grid::GridSpec& spec, const ViewGeometry& geometry,
                    const LevelPosition& levels, int slices)
     : geometry_(geometry) {

@@ -31,7 +31,7 @@ HWY_INLINE FloatVec opacity_of(FloatVec depth) {
     const IntVec whole = hn::ConvertTo(i, hn::Add(exponent, hn::Set(f, 0.5F)));
     const FloatVec part = hn::Sub(hn::ConvertTo(f, whole), exponent);
     // 2^part is a polynomial with the coefficients ln(2)^n / n!. Its terms are added in pairs, so
-    // that few operations wait for others.
+    // that few operations wait for other operations.
     const auto term = [&](float constant, float slope) {
         return hn::Add(hn::Set(f, constant), hn::Mul(hn::Set(f, slope), part));
     };
@@ -122,9 +122,9 @@ class MarkedSlices {
 };
 
 // Casts the rays of one vector from front to back. Slices are sampled in batches, and the steps of
-// a batch are added up after it. Within a batch no sample waits for another, so the processor works
-// on several at once. `Source` reads the codes. Options that a scene does not use are not compiled
-// in.
+// a batch are added up after the batch. Within a batch no sample waits for another sample, so the
+// processor works on several samples at once. `Source` reads the codes. Options that a scene does
+// not use are not compiled in.
 template <class Source, bool curved, bool lit>
 class Caster {
   public:
@@ -204,8 +204,9 @@ class Caster {
         return {x, y, level_of(volume_, z)};
     }
 
-    // Adds the light of a step, times the part of the step that is seen. The light is read at the
-    // end that has an even number, which two steps share. It changes little from slice to slice.
+    // Adds the light of a step, times the part of the step that is seen. The light changes little
+    // from slice to slice, so it is read only at the end that has an even number, which two steps
+    // share.
     HWY_INLINE void add_light(float front_t, FloatVec seen) {
         const int front = static_cast<int>(front_t);
         const int even = front + (front & 1);
@@ -222,8 +223,8 @@ class Caster {
     HWY_INLINE bool add_step(const SliceFinds& front, const SliceFinds& back) {
         const Floats f;
         const Ints i;
-        // The length of the step is that of the ray inside the box. It is multiplied by the mean
-        // share of cells with values at the two ends, so that echo tapers to nothing.
+        // The length of the step is that of the ray inside the box. The length is multiplied by the
+        // mean share of cells with values at the two ends, so that echo tapers to nothing.
         const FloatVec from = hn::Max(hn::Set(f, front.t), rays_.enter);
         const FloatVec to = hn::Min(hn::Set(f, back.t), rays_.leave);
         const FloatVec inside = hn::Max(hn::Sub(to, from), hn::Zero(f));
@@ -245,7 +246,7 @@ class Caster {
         return add_looks(looks, length, front.t);
     }
 
-    // Composites a step over the earlier steps, front to back. It adds its color, times its
+    // Composites a step over the earlier steps, front to back. The step adds its color, times its
     // opacity, times the light that still gets through, and takes its share of that light. `looks`
     // is red, green, blue and optical depth for each reference length.
     HWY_INLINE bool add_looks(const Fours& looks, FloatVec length, float front_t) {

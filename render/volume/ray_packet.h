@@ -59,9 +59,8 @@ struct PacketVolume {
 
 // Rays in positions of cells: position = start + t * step, where t counts slices from the near end.
 // The third axis is a level, or, with PacketVolume::levels, a height of drawn space. On a curved
-// earth, the position is curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 below the height
-// that it stands for. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave, it sees
-// nothing.
+// earth, the third axis plus curve_x * (x - middle_x)^2 + curve_y * (y - middle_y)^2 is that level
+// or height. Ray i is inside the box from enter[i] to leave[i]; if enter >= leave, it sees nothing.
 struct RayPacket {
     float x[packet_rays], y[packet_rays], z[packet_rays];
     float step_x[packet_rays], step_y[packet_rays], step_z[packet_rays];

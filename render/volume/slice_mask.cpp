@@ -117,7 +117,7 @@ SliceMask::SliceMask(const grid::BrickView& view, const ViewGeometry& geometry, 
 }
 
 // Adds boxes for the visible parts of a brick. The codes of the whole brick rule out most bricks,
-// so the codes of blocks are computed only for the others.
+// so the codes of blocks are computed only for the other bricks.
 void SliceMask::add_brick(const grid::BrickView& view, const TransferFunction& transfer,
                           const std::array<int, 3>& brick, Boxes& boxes) const {
     const std::size_t index = view.brick_index(brick[0], brick[1], brick[2]);
@@ -166,8 +166,8 @@ void SliceMask::add_cells(const grid::GridSpec& spec, const Cells& cells, Boxes&
     reach(
         cells.first[2], cells.past[2], spec.nz(), geometry_.bottom_m(), geometry_.top_m(),
         [&](int i) { return spec.levels_m[static_cast<std::size_t>(i)]; }, box.low[2], box.high[2]);
-    // The curve lowers the box least where it is nearest to the middle of the grid, and most where
-    // it is farthest.
+    // The curve lowers the box least where the box is nearest to the middle of the grid, and most
+    // where the box is farthest from the middle.
     const auto nearest = [&](std::size_t axis) {
         return std::clamp(0.0, box.low[axis], box.high[axis]);
     };
@@ -235,8 +235,8 @@ SliceMask::Outline SliceMask::perspective_outline(const Box& box) const {
 }
 
 // Finds the tiles and rows of the box, and widens the box by half a tile on each side. Then one ray
-// through the middle of a tile stands for the whole tile: if it misses the widened box, all rays of
-// the tile miss the box. Returns false if the box is outside the picture or behind the camera.
+// through the middle of a tile decides for the whole tile: if it misses the widened box, all rays
+// of the tile miss the box. Returns false if the box is outside the picture or behind the camera.
 bool SliceMask::place_in_picture(Box& box) const {
     const Outline outline =
         geometry_.is_perspective() ? perspective_outline(box) : parallel_outline(box);

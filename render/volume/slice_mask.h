@@ -4,8 +4,8 @@
 // The bit tells whether any pixel of the tile may find a visible value at any point of that step.
 // Bits err only on the safe side: a set bit may be useless, but a cleared bit never hides anything.
 // The least and the largest code of a brick tell whether the brick may be visible, and then the
-// codes of its blocks tell which parts may be. Blocks are 2 to 16 cells wide, about as wide as 8
-// pixels.
+// codes of its blocks tell which parts may be visible. Blocks are 2 to 16 cells wide, about as wide
+// as 8 pixels.
 //
 // Threads   Immutable; many threads may call fill_band().
 #pragma once

@@ -3,16 +3,17 @@
 //
 // The depth of the grid's box is divided into `slices` equal steps. Every ray samples the volume at
 // the planes between these steps, and at the points at which it enters and leaves the box.
-//   sample   Trilinear over those of the 8 cells around the point that have a value: the weighted
-//            mean of their values. Its share is the sum of their weights. So echo tapers to nothing
-//            over one cell toward cells without a value, whatever their state, and no state ever
-//            adds a color. The outermost cells continue up to half a cell beyond their centers.
+//   sample   Trilinear: the weighted mean of the values of those of the 8 cells around the point
+//            that have a value. The share of the sample is the sum of the weights of these cells.
+//            So echo tapers to nothing over one cell toward cells without a value, whatever their
+//            state, and no state ever adds a color. The outermost cells continue up to half a cell
+//            beyond their centers.
 //   step     The entry of the TransferFunction for the values at its two ends. The optical depth of
 //            the entry is multiplied by the mean of the shares at the two ends, and by the length
 //            of the ray through the step, which may be cut by the box. If one end has no value, the
 //            value of the other end is used for both. Colors mix in sRGB, as drawn.
-//   light    If the scene asks for it, each sample has one factor (stormcellar/render/light.h), and
-//            a step takes the mean of both its ends.
+//   light    If the scene asks for it, a step has the factor (stormcellar/render/light.h) of
+//            the slice at its ends that has an even number. Two steps share this slice.
 //   skipped  Parts of a ray in bricks whose range of values is clear (this is exact), and
 //            everything behind an opacity of 0.999 (this changes no channel by more than 0.26 of
 //            255).
@@ -59,8 +60,8 @@ struct VolumeOptions {
     Light light = {};  // none: the table's own colors
 };
 
-// Draws grids of one quantization in one view, and makes the tables that they share once. A
-// VolumeSlicer is immutable; many threads may call draw().
+// Draws grids of one quantization in one view, and makes only once the tables that the grids share.
+// A VolumeSlicer is immutable; many threads may call draw().
 class VolumeSlicer {
   public:
     // The geometry must outlive this object. `cache` may be null. `threads` threads make the shared

@@ -1,6 +1,6 @@
 // render/volume/transfer_cache.h -- keeps the transfer function of the last picture.
 //
-// The function takes milliseconds to make, and all frames of a loop have the same one.
+// The function takes milliseconds to make, and all frames of a loop have the same function.
 //
 // Threads   One thread at a time.
 #pragma once

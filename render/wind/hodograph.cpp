@@ -19,8 +19,8 @@ using retrieve::WindLayer;
 constexpr double title_height_px = 50, key_height_px = 108, side_margin_px = 14;
 constexpr int most_rings_shown = 6;
 constexpr double least_span_mps = 12;
-// Winds farther apart than the first length are joined by a thin line; farther apart than the
-// second, by none.
+// Winds farther apart than the first length are joined by a thin line. Winds farther apart than the
+// second length are not joined.
 constexpr double most_gap_m = 650, widest_gap_m = 1'500;
 
 constexpr std::size_t band_count = 5;
