@@ -42,7 +42,7 @@ class ColumnMeter {
 };
 
 // Returns the thickness of each level's layer, which reaches half way to the next levels; the first
-// and the last are symmetric. A single level has the thickness 0.
+// and the last layer are symmetric about their levels. A single level has the thickness 0.
 [[nodiscard]] std::vector<double> layer_thickness_m(std::span<const double> levels_m);
 
 }  // namespace stormcellar::retrieve

@@ -18,7 +18,8 @@ double column_count(std::span<const ColumnRun> runs) {
     return count;
 }
 
-// Counts the common columns after the first footprint was moved. Both are in order of their rows.
+// Counts the common columns after the first footprint was moved. Both lists are in the order of the
+// rows.
 double common_columns(std::span<const ColumnRun> moved, std::span<const ColumnRun> still, int by_x,
                       int by_y) {
     double count = 0;
@@ -63,7 +64,7 @@ double FootprintOverlap::of_smaller() const {
 }
 
 CellMatches match_cells(std::span<const ExpectedCell> expected, const CellScan& scan) {
-    // Cells this far from each other share no column: no footprint is larger.
+    // Cells farther apart than this share no column, because no footprint is larger.
     constexpr double farthest_m = 100'000;
     CellMatches matches;
     matches.found_of.resize(expected.size());

@@ -1,8 +1,9 @@
 // retrieve/cells/cell_matching.h -- finds the cells of a scan that continue tracks.
 //
-// A pair is possible if the predicted place of the track is within the gate, or if the moved
-// footprint covers enough of the smaller of both. Its cost is the distance in gates plus the share
-// of the smaller footprint that is not covered. Pairs are taken in order of their cost.
+// A track and a cell may be a pair if the cell is within the gate around the predicted place of the
+// track, or if the moved footprint of the track and the footprint of the cell share enough of the
+// smaller footprint. The cost of a pair is the distance in gates plus the share of the smaller
+// footprint that is not covered. Pairs are taken in order of their cost.
 //
 // Threads   Pure functions.
 #pragma once
@@ -27,7 +28,8 @@ struct ExpectedCell {
 // The least share of a footprint that counts as the same storm.
 inline constexpr double least_overlap = 0.3;
 
-// Numbers of columns: of both footprints, and of both together after the first was moved.
+// Numbers of columns: the columns of each footprint, and the columns that both have after the first
+// footprint was moved.
 struct FootprintOverlap {
     double expected = 0, found = 0, common = 0;
     [[nodiscard]] double of_smaller() const;
@@ -36,8 +38,8 @@ struct FootprintOverlap {
 };
 
 struct CellMatches {
-    std::vector<std::optional<std::size_t>> found_of;     // cell of each expected one
-    std::vector<std::optional<std::size_t>> expected_of;  // and back
+    std::vector<std::optional<std::size_t>> found_of;     // by expected cell
+    std::vector<std::optional<std::size_t>> expected_of;  // by found cell
     // The overlaps of all pairs that overlap, by expected cell, then by found cell.
     struct Pair {
         std::size_t expected = 0, found = 0;

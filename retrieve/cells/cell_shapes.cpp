@@ -76,9 +76,9 @@ bool is_deep(const GroupSums& sum, const std::vector<double>& thickness_m, doubl
 // Melting layers are rarely stronger.
 constexpr float melting_layer_dbz = 50;
 
-// Marks the groups that are less deep than the least depth. A group is not shallow if the air above
-// most of its upper cells was not seen and it is stronger than melting layers, because it is
-// probably deeper than it looks.
+// Marks the groups that are less deep than the least depth. A group does not count as shallow if
+// the group is stronger than melting layers and the air above most of its upper cells was not seen,
+// because the group is probably deeper than it looks.
 std::vector<std::uint8_t> shallow_groups(const grid::BrickView& view, const StrongEcho& echo,
                                          const FloodedEcho& flooded,
                                          const std::vector<GroupSums>& sums, double least_depth_m) {

@@ -48,8 +48,9 @@ class PeakFlood {
     }
     FloodGroup& at(std::int32_t group) { return groups_[static_cast<std::size_t>(group)]; }
 
-    // Adds the next cell. Its strongest neighbor decides on its group; if it has none yet, it is a
-    // new peak. Then all groups that meet here join, unless they stay apart.
+    // Adds the next cell. The cell joins the group of its strongest neighbor. If no neighbor has a
+    // group yet, the cell is a new peak. Then all groups that meet at this cell join, unless the
+    // rules keep them apart.
     void add(std::size_t i) {
         const StrongGridCell& cell = echo_.cells()[i];
         std::array<std::int32_t, flood_steps.size()> met{};

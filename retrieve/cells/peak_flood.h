@@ -20,7 +20,8 @@ struct FloodRules {
     double cell_width_m = 0, cell_height_m = 0;
 };
 
-// The groups of cells. `group_of` has a group for each cell of the echo, numbered by falling peaks.
+// The groups of cells. `group_of` has a group for each cell of the echo, numbered from the
+// strongest peak down.
 struct FloodedEcho {
     int groups = 0;
     std::vector<std::int32_t> group_of;

@@ -71,7 +71,7 @@ Status guess_motions(CellScan& scan, const grid::BrickView& before, const grid::
     if (before.spec == nullptr || after.spec == nullptr || scan.spec != *after.spec)
         return fail(ErrorCode::bad_argument, "the cells are not of the later grid");
     const bool is_one_grid = *before.spec == *after.spec;
-    if (scan.cells.empty() && is_one_grid && seconds > 0) return {};  // spares the estimate
+    if (scan.cells.empty() && is_one_grid && seconds > 0) return {};  // no motion is needed
     const auto field = grid::estimate_motion(before, after, seconds);
     if (!field) return tl::unexpected(field.error());
     if (!*field) return {};

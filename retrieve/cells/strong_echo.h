@@ -45,7 +45,8 @@ class StrongEcho {
         return index_[static_cast<std::size_t>(slot) * grid::brick_cells +
                       static_cast<std::size_t>(within)];
     }
-    // Returns the reflectivity of a level, which is up to one step below that of its cells.
+    // Returns the reflectivity of a level, which is up to one step below the reflectivity of its
+    // cells.
     [[nodiscard]] float dbz_of(std::uint8_t level) const {
         return least_dbz_ + level_step_db * static_cast<float>(level - 1);
     }
@@ -56,8 +57,9 @@ class StrongEcho {
 
     int nx_, ny_, nz_, bricks_y_, bricks_z_;
     float least_dbz_;
-    std::vector<std::int32_t> slots_;  // of each brick in index_, or -1
-    std::vector<std::int32_t> index_;  // of each cell of a strong brick in cells_, or -1
+    std::vector<std::int32_t> slots_;  // for each brick, its place in index_, or -1
+    std::vector<std::int32_t> index_;  // for each cell of a strong brick, its place in cells_, or
+                                       // -1
     std::vector<StrongGridCell> cells_;
 };
 

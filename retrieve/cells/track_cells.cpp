@@ -11,8 +11,8 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// Errors of a prior: of the motion that a split or merged cell takes over, which its jump in place
-// does not change.
+// The error of the motion that a cell takes over as its prior when it splits or merges. The jump of
+// its place does not change this motion.
 constexpr double inherited_error_mps = 3;
 // The gate around a predicted place: this much, and the error of the motion over the gap.
 constexpr double gate_m = 5'000, gate_mps = 5, farthest_gate_m = 15'000;
@@ -20,11 +20,11 @@ constexpr double gate_m = 5'000, gate_mps = 5, farthest_gate_m = 15'000;
 struct CellTrack {
     std::string id;
     std::vector<CellSighting> sightings;
-    std::size_t fit_from = 0;  // first sighting of the line: after the last jump in place
+    std::size_t fit_from = 0;  // first sighting after the last jump in place
     const StormCell* cell = nullptr;
     const grid::GridSpec* spec = nullptr;
     std::optional<TrackMotion> prior, motion;
-    bool has_inherited = false;  // the prior is a motion of before a jump in place
+    bool has_inherited = false;  // the prior is the motion before a jump in place
     bool is_open = true;
 };
 
@@ -66,7 +66,7 @@ class Tracker {
         }
     }
 
-    // Returns the motion of the echo at the cell nearest to a place, as far as anybody knows.
+    // Returns the motion of the echo at the nearest cell for which it is known.
     [[nodiscard]] static std::optional<Motion> echo_motion_near(const CellScan& scan,
                                                                 grid::GeoPoint place) {
         const grid::SiteFrame frame(place.latitude_deg, place.longitude_deg);
@@ -83,7 +83,7 @@ class Tracker {
         return nearest;
     }
 
-    // Returns the mean motion of the tracks that have one.
+    // Returns the mean motion of the tracks that have a motion.
     [[nodiscard]] std::optional<Motion> mean_motion() const {
         Motion sum;
         double count = 0;
@@ -97,8 +97,9 @@ class Tracker {
         return Motion{sum.u_mps / count, sum.v_mps / count};
     }
 
-    // Predicts each open track: by its own motion, else by that of the echo near it, else by that
-    // of the other tracks. Without any of them a cell may have moved anywhere.
+    // Predicts the place of each open track by the motion of the track, else by the motion of the
+    // echo near it, else by the mean motion of the other tracks. If none of these is known, the
+    // cell may have moved anywhere.
     [[nodiscard]] std::vector<ExpectedCell> expect_cells(const CellScan& scan) const {
         const std::optional<Motion> mean = mean_motion();
         std::vector<ExpectedCell> expected;
@@ -127,8 +128,8 @@ class Tracker {
         return i;
     }
 
-    // Begins a track. If the cell is within the moved footprint of a track that continues, it was
-    // split off from it, and moves like it.
+    // Begins a track. If the cell is within the moved footprint of a track that continues, it split
+    // off from that track and takes over the track's motion.
     std::size_t begin_track(const CellScan& scan, std::size_t j, const CellMatches& matches,
                             TrackedCell& cell) {
         CellTrack track;
@@ -160,7 +161,8 @@ class Tracker {
             track.prior = TrackMotion{*cell.echo_motion, echo_motion_error_mps};
     }
 
-    // Ends the tracks that were seen in the scan before and are now within the cell of another.
+    // Ends the tracks that were seen in the scan before and are now within the cell of another
+    // track.
     void name_merged(const CellMatches& matches, TrackedScan& tracked,
                      const std::vector<std::size_t>& track_of) {
         std::vector<double> greatest(open_.size(), 0.0);
@@ -212,7 +214,7 @@ class Tracker {
                 forecast_track(track.sightings.back(), *track.motion, options_.position_error_m);
     }
 
-    // Makes an id from time and place, with a letter behind it if it is taken.
+    // Makes an id from time and place. If the id is taken, adds a letter at its end.
     std::string new_id(UtcTime time, grid::GeoPoint place) {
         const std::string id =
             fmt::format("{}_{:.2f}{}_{:.2f}{}", format_compact(time), std::abs(place.latitude_deg),
@@ -226,7 +228,7 @@ class Tracker {
 
     const TrackOptions& options_;
     std::vector<CellTrack> tracks_;
-    std::vector<std::size_t> open_;  // indices of open tracks, as the scan began
+    std::vector<std::size_t> open_;  // tracks that were open before the scan
     std::set<std::string> ids_;
     std::set<std::string> jumped_;  // tracks that split or merged in this scan
     std::optional<UtcTime> last_time_;

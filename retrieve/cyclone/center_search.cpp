@@ -40,11 +40,11 @@ CirclesAtGuess circles_at(const PolarVelocity& field, double rotation, grid::Pla
     return circles;
 }
 
-// The circles whose tangential wind the center maximizes, as parts of the radius of maximum wind.
-// Inside that radius, an asymmetry would move the center.
+// Radii of the circles whose tangential wind is greatest about the right center, as multiples of
+// the radius of maximum wind. With smaller circles, an asymmetry would move the center.
 constexpr std::array<double, 5> annulus{1, 1.015, 1.03, 1.045, 1.06};
-// The radii for which a center is sought, as parts of the radius of maximum wind found so far. A
-// wrong center and a wrong radius can agree with each other, but not with the greatest wind.
+// The radii for which a center is sought, as multiples of the radius of maximum wind found so far.
+// A wrong center and a wrong radius can agree with each other, but not with the greatest wind.
 constexpr std::array<double, 4> radius_parts{0.88, 0.94, 1, 1.06};
 constexpr double first_step_m = 2000, last_step_m = 50;  // of the simplex
 
@@ -86,7 +86,7 @@ double strongest_moment(const VortexProfile& profile) {
 }
 
 // Returns the mean excess of the strongest ring and of the ring at 1.4 times its radius, or of the
-// outermost ring. A cyclone is wide, so both must show it.
+// outermost ring. A cyclone is wide, so both rings must show it.
 double excess_of(const VortexProfile& profile) {
     const double distance = std::hypot(profile.center.x_m, profile.center.y_m);
     const ProfileRing& top = profile.strongest();
@@ -118,8 +118,9 @@ struct Scatter {
     double size_m = 0;
 };
 
-// Climbs from eight places around the center. Climbs that end below the best do not count. Then
-// climbs for single circles; how far these end from the mean is the larger part of the scatter.
+// Climbs from eight places around the center, and takes the mean of the places that the best climbs
+// reach. Then climbs from this mean for each single circle. The scatter is the root mean square
+// distance of all these places from the mean; most of it comes from the single circles.
 Scatter scatter_of(const PolarVelocity& field, double rotation, const VortexProfile& profile) {
     const double radius = std::max(profile.strongest().radius_m, least_search_radius_m);
     const grid::PlanePoint center = profile.center;

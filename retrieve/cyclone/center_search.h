@@ -14,8 +14,8 @@
 
 namespace stormcellar::retrieve {
 
-// Returns by how much the tangential wind exceeds what a uniform wind of 30 m/s across the beam and
-// the scatter about the fitted wind could show.
+// Returns the tangential wind, less what may be due to a uniform wind of 30 m/s across the beam and
+// to the scatter about the fitted wind.
 [[nodiscard]] double vortex_excess_mps(const RingFit& fit, double radius_share);
 
 struct CenterGuess {
@@ -25,7 +25,7 @@ struct CenterGuess {
 };
 
 struct CenterGuesses {
-    std::vector<CenterGuess> best;  // of each radius at most one, if its excess is above 0
+    std::vector<CenterGuess> best;  // at most one for each radius, with an excess above 0
     bool has_circles = false;       // false: velocities are too few at every place
 };
 

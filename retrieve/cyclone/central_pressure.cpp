@@ -17,8 +17,8 @@ double density_at(double altitude_m) {
     return 1.225 * std::pow(1 - 2.25577e-5 * std::clamp(altitude_m, 0.0, 11'000.0), 4.25588);
 }
 
-// Returns the integral of V^2 / r + f V, whose wind at each ring is the estimate plus `errors`
-// times its error.
+// Returns the integral of V^2 / r + f V. V at each ring is the estimate plus `errors` times its
+// error.
 double integral_of(std::span<const CycloneRing> rings, double coriolis, double errors) {
     const auto wind = [&](const CycloneRing& ring) {
         return std::max(0.0, ring.tangential_mps.value + errors * ring.tangential_mps.error);

@@ -1,7 +1,7 @@
 // retrieve/cyclone/central_pressure.h -- the fall of pressure from the outermost ring to the center
 // of a hurricane in gradient wind balance, dp/dr = density (V^2 / r + f V).
 //
-// Units     hPa. The pressure is that of the height of the beam.
+// Units     hPa. The pressure is at the height of the beam.
 // Errors    The errors of all rings count as one, because most of each is common to all rings. The
 //           density of the standard atmosphere adds 5 %.
 // Threads   Pure.

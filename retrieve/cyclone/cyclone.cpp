@@ -33,8 +33,8 @@ struct ChosenField {
     PolarVelocity field;
 };
 
-// Chooses the lowest sweep with velocities. Of several at about the same elevation, the sweep with
-// the most velocities is chosen.
+// Chooses the lowest sweep with velocities. Of several sweeps at about the same elevation, the
+// sweep with the most velocities is chosen.
 tl::expected<ChosenField, NoCyclone> choose_field(const level2::Volume& volume,
                                                   const Dealiased& folds) {
     if (folds.sweeps.empty())
@@ -120,8 +120,8 @@ std::vector<double> errors_of_center(const Search& search, double rotation) {
 }
 
 // Returns the error of a ring's tangential wind that is due to the width of beam and bins. Where
-// the wind is greatest, neighboring rings are weaker on both sides, and the mean over the width is,
-// too.
+// the wind is greatest, neighboring rings are weaker on both sides, so the mean over the width is
+// also weaker.
 double error_of_width(const VortexProfile& profile, std::size_t ring) {
     if (ring == 0 || ring + 1 == profile.rings.size()) return 0;
     const auto wind = [&](std::size_t at) { return profile.rings[at].fit.tangential_mps; };
@@ -181,7 +181,8 @@ Cyclone describe(const Search& search, const CycloneOptions& options, double rot
     return cyclone;
 }
 
-// Returns the reason why a vortex that was found is no hurricane whose wind can be told.
+// Returns the reason why a vortex that was found is not a hurricane, or why its wind is not
+// certain.
 std::optional<NoCyclone> doubt(const Cyclone& cyclone, double excess_mps) {
     const CycloneRing& top = cyclone.maximum();
     const double fit_error = std::sqrt(

@@ -20,7 +20,7 @@ float turned(float azimuth_deg) {
     return turned < 0 ? turned + 360 : turned;
 }
 
-// Moves a velocity by whole turns until it is nearest to the expected one, unless that is NaN.
+// Moves a velocity by whole turns until it is nearest to `expected`, unless `expected` is NaN.
 double nearest(double velocity_mps, double expected_mps, float turn_mps) {
     const auto turn = static_cast<double>(turn_mps);
     return std::isnan(expected_mps) || std::abs(expected_mps - velocity_mps) <= turn / 2
@@ -77,7 +77,8 @@ void PolarVelocity::index_azimuths() {
 void PolarVelocity::fill_bins(const level2::Sweep& sweep, const std::vector<std::size_t>& radials,
                               const SweepFolds& folds) {
     const level2::SweepMoment& moment = sweep.moments[folds.moment];
-    // Find the bin of each gate. It is the same in all radials, whose elevations hardly differ.
+    // Find the bin of each gate. The bin is the same in all radials, whose elevations hardly
+    // differ.
     const grid::BeamGeometry beam(40, 0);
     bin_m_ = std::max(1000.0, static_cast<double>(moment.gate_spacing_m));
     std::vector<std::size_t> bin_of_gate;
@@ -88,7 +89,8 @@ void PolarVelocity::fill_bins(const level2::Sweep& sweep, const std::vector<std:
     bins_in_row_ = bin_of_gate.back() + 1;
     bins_.assign(radials.size() * bins_in_row_, std::numeric_limits<float>::quiet_NaN());
 
-    // Take the median of the gates of each bin, which survives one gate with a wrong fold number.
+    // Take the median of the gates of each bin. The median is right even if one gate has a wrong
+    // fold number.
     const double level = 1 / std::cos(elevation_deg_ * degree);
     std::vector<double> gates;
     for (std::size_t row = 0; row < radials.size(); ++row) {

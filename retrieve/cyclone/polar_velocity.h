@@ -1,12 +1,13 @@
 // retrieve/cyclone/polar_velocity.h -- the unfolded velocities of one sweep, thinned to bins along
 // the arc, for reading at any point of the plane about the site.
 //
-// A bin has the median of its gates. It is the horizontal wind along the beam: the velocity divided
-// by the cosine of the elevation. The fall of the drops adds at most 0.1 m/s below 1 degree.
+// A bin has the median of its gates, as the horizontal wind along the beam: the velocity divided by
+// the cosine of the elevation. The fall of the drops adds at most 0.1 m/s below 1 degree.
 //
 // Units     Meters in the azimuthal equidistant plane about the site; m/s, positive away from the
 //           radar.
-// Threads   One thread may change a PolarVelocity while no other uses it; `const` is thread-safe.
+// Threads   One thread may change a PolarVelocity while no other thread uses it; `const` is
+//           thread-safe.
 #pragma once
 
 #include <cstddef>

@@ -34,8 +34,8 @@ struct Point {
     double residual = 0;
 };
 
-// Returns the inverse of a positive definite matrix of which the first `size` rows count, by
-// Gauss and Jordan; none if the points do not determine all numbers.
+// Returns the inverse of the first `size` rows and columns of a positive definite matrix, by Gauss
+// and Jordan. Returns none if the points do not determine all numbers.
 std::optional<Matrix> inverse(Matrix matrix, std::size_t size) {
     Matrix result{};
     for (std::size_t i = 0; i < size; ++i)
@@ -132,7 +132,7 @@ int waves_of_gap(double gap_deg) {
     return gap_deg <= 90 ? 1 : 0;
 }
 
-// Returns 1.4826 times the median magnitude of the residuals, which few points cannot spoil.
+// Returns 1.4826 times the median magnitude of the residuals, which a few bad points hardly change.
 double deviation_of(const std::vector<Point>& points) {
     std::vector<double> sizes;
     sizes.reserve(points.size());
@@ -143,7 +143,7 @@ double deviation_of(const std::vector<Point>& points) {
     return 1.4826 * *middle;
 }
 
-// Fits the points, drops those that are far off, and fits again until none is.
+// Fits the points, drops points that are far off, and fits again, until no point is far off.
 std::optional<Solution> solve_robustly(std::vector<Point>& points, std::size_t size) {
     for (;;) {
         auto solution = solve(points, size);

@@ -27,9 +27,9 @@ struct VortexProfile {
 };
 
 // Fits circles from `start_radius_m`, to the nearest kilometer, inward and outward, until the
-// radar, the data or the largest radius ends them. The circle before each gives the expected
-// velocities, so that wrong fold numbers do not matter. `rings` is empty if the first circle cannot
-// be fitted.
+// radar, the data or the largest radius ends them. Each circle takes its expected velocities from
+// the circle before it, so that wrong fold numbers do not matter. `rings` is empty if the first
+// circle cannot be fitted.
 [[nodiscard]] VortexProfile fit_profile(const PolarVelocity& field, grid::PlanePoint center,
                                         double start_radius_m, double rotation);
 

@@ -67,8 +67,8 @@ void center_components(SheetState& state) {
 }
 
 // Trusts the main echo of a sheet if it is one node, about which no edge votes. Like a component of
-// several nodes, it has the fold number that center_components() gives it. Smaller echo on its own
-// stays a guess, because it may be folded against the main echo.
+// several nodes, this node has the fold number that center_components() gave. Smaller echo on its
+// own stays a guess, because it may be folded against the main echo.
 void trust_main_echo(SheetState& state) {
     std::vector<std::int64_t> gates(at(state.graph.nodes));
     std::vector<int> nodes(at(state.graph.components));
@@ -135,7 +135,7 @@ void solve_anchored(std::vector<SheetState>& states, std::span<const SheetState>
 
 // A layer whose wind agrees less than this with its velocities unfolds no gates.
 constexpr double least_agreement = 0.3;
-// A velocity that remains more turns from the wind is ambiguous.
+// An unfolded velocity that is more turns than this from the wind is ambiguous.
 constexpr double most_from_wind = 0.35;
 
 // Chooses the fold number that brings each gate nearest to the wind at its height. A gate is

@@ -20,8 +20,8 @@ template <class Real>
     return static_cast<std::uint16_t>(std::lrint(velocity_mps * Real{100} + Real{32768}));
 }
 
-// Returns a copy of a velocity moment for such codes, all of which are 0. `gates` is the number of
-// places in its rows.
+// Returns a copy of a velocity moment that has codes of this kind. All codes are 0. `gates` is the
+// number of places in its rows.
 [[nodiscard]] inline level2::SweepMoment with_fine_codes(const level2::SweepMoment& raw,
                                                          std::size_t gates) {
     level2::SweepMoment made = raw;

@@ -81,8 +81,8 @@ std::vector<FoldEdge> edges_between(const std::vector<FoldEdge>& edges, OffsetSe
     return between;
 }
 
-// Joins the two nodes of an edge if its winner weighs at least as much as all other votes about one
-// of the nodes. Returns the number of joins.
+// Joins the two nodes of an edge if the winner of the edge weighs at least as much as all other
+// votes about one of the nodes. Returns the number of joins.
 std::int32_t join_over_heavy_edges(const std::vector<FoldEdge>& edges,
                                    const std::vector<float>& anchor_bound, OffsetSets& sets) {
     std::vector<float> total = anchor_bound;
@@ -329,7 +329,7 @@ void minimize_cost(const FoldGraph& graph, const std::vector<Votes>& anchors,
         for (std::int32_t node = 0; node < graph.nodes; ++node) {
             const auto& of = costs[at(graph.component[at(node)])];
             const auto least = std::ranges::min_element(of);
-            // Leave a component that nobody votes about where it is.
+            // Leave a component without votes where it is.
             if (*least < of[at(Votes::most)])
                 folds[at(node)] += static_cast<std::int32_t>(least - of.begin()) - Votes::most;
         }

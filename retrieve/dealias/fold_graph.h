@@ -89,7 +89,7 @@ struct FoldGraph {
                                    const std::vector<float>& anchor_bound);
 
 // Returns a first solution, which follows the winner of each edge, the clearest winner first,
-// unless edges followed before already fix the difference.
+// unless edges that were followed earlier already fix the difference.
 [[nodiscard]] std::vector<std::int32_t> likely_folds(const FoldGraph& graph);
 
 // Changes `folds` until no set of nodes that moves by one lowers the cost, or a limit on the work

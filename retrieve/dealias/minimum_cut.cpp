@@ -7,7 +7,7 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr float least_capacity = 1e-5F;  // smaller ones are rounding errors
+constexpr float least_capacity = 1e-5F;  // smaller capacities are rounding errors
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void MinimumCut::activate(std::int32_t node) {
 }
 
 // Adds the free neighbors of a node to its tree. Returns the arc, from the source's tree to the
-// sink's, over which it meets the other tree; none if it does not.
+// sink's, over which the node meets the other tree; none if there is no such arc.
 std::int32_t MinimumCut::grow(std::int32_t node) {
     const Tree tree = at(node).tree;
     for (std::int32_t a = at(node).first; a != none; a = arc(a).next) {
@@ -48,7 +48,7 @@ std::int32_t MinimumCut::grow(std::int32_t node) {
         } else if (other.tree != tree) {
             return tree == Tree::source ? a : a ^ 1;
         } else if (other.checked <= at(node).checked && other.distance > at(node).distance) {
-            // A shorter way to the root.
+            // This path to the root is shorter.
             other.parent = a ^ 1;
             other.checked = at(node).checked;
             other.distance = at(node).distance + 1;
@@ -96,8 +96,8 @@ void MinimumCut::fill(std::int32_t bridge) {
     fill_along(in_sink, flow);
 }
 
-// Returns true if the way up from a node ends at its root, and its length. Marks the nodes on the
-// way, so that the next look ends there.
+// Returns true if the path up from a node ends at a root. `distance` is then the length of the
+// path. Marks the nodes on the path, so that the next search can end at them.
 bool MinimumCut::is_rooted(std::int32_t node, std::int32_t& distance) {
     distance = 0;
     std::int32_t top = node;

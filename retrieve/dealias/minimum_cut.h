@@ -1,8 +1,8 @@
 // retrieve/dealias/minimum_cut.h -- the minimum cut of a graph with a source and a sink.
 //
 // Two trees grow from the source and from the sink until they touch. The path between them is
-// filled, and what it tears off a tree is hung elsewhere in it or let go, so that both trees are
-// used again.
+// filled. Nodes that this cuts off from their tree are attached elsewhere in the tree, or freed, so
+// that both trees are used again.
 //
 // Source   Boykov and Kolmogorov (2004), with the marks of distance of their section 3.2.4.
 // Accuracy Costs are floats; a cut is the smallest up to 1e-5 of the largest cost.
@@ -22,11 +22,11 @@ class MinimumCut {
         : nodes_(static_cast<std::size_t>(nodes)) {
         arcs_.reserve(2 * most_connections);
     }
-    // Adds what it costs if the node is on the sink's side; a negative cost is that of the source's
-    // side.
+    // Adds the cost of having the node on the sink's side. A negative cost is a cost of having it
+    // on the source's side.
     void prefer_source(std::int32_t node, float cost);
-    // Adds what it costs if `from` is on the source's side and `to` on the sink's, and what the
-    // reverse costs.
+    // Adds the cost of having `from` on the source's side and `to` on the sink's, and the cost of
+    // the reverse.
     void connect(std::int32_t from, std::int32_t to, float cost, float reverse_cost);
     // Computes the cut, after which on_source_side() is valid. Stops after about this many looks at
     // arcs; the result is a cut then, but not the smallest. Returns the number of looks.

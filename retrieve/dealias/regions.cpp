@@ -16,8 +16,8 @@ constexpr std::int32_t widest_gap = 100;
 // Size of the tiles into which regions are split.
 constexpr std::int32_t tile_radials = 8, tile_gates = 16;
 
-// Returns the number of the third, from 1 to 3, or 0 if there is no value. It has no branches, so
-// that the compiler handles several gates at once.
+// Returns the number of the third, from 1 to 3, or 0 if there is no value. The function has no
+// branches, so that the compiler handles several gates at once.
 std::uint8_t third_of(float turns) {
     // Comparing NaN with >= would be an invalid operation (base/floating_point.h).
     const int number = (turns == turns ? 1 : 0) + (std::isgreaterequal(turns, -1.0F / 6) ? 1 : 0) +
@@ -64,7 +64,7 @@ class RegionFinder {
     }
 
     void cut_runs() {
-        // A third that no gate has ends the last run of a radial.
+        // No gate has the number 4, so it ends the last run of a radial.
         std::vector<std::uint8_t> thirds(static_cast<std::size_t>(sheet_.gates) + 1, 4);
         for (std::int32_t radial = 0; radial < sheet_.radials; ++radial) {
             found_.first_run.push_back(found_.runs.size());

@@ -35,7 +35,7 @@ class RoughGates {
         if (!sheet_.is_circle || sheet_.radials <= 2 * radial_reach) return -1;
         return (number + sheet_.radials) % sheet_.radials;
     }
-    // Notes which runs have a rough difference in the radials about this one.
+    // Notes which runs have a rough difference in the radials about this radial.
     void gather_rough_runs(int radial) {
         near_.assign(static_cast<std::size_t>(unfolded_.runs()), 0);
         for (int away = -radial_reach; away <= radial_reach; ++away) {
@@ -46,8 +46,8 @@ class RoughGates {
                 near_[run] |= marks[run];
         }
     }
-    // Returns false if no difference about the gates of a run is rough, because then their mean
-    // is not.
+    // Returns false if no difference about the gates of a run is rough, because then their mean is
+    // not rough either.
     [[nodiscard]] bool may_be_rough(int run) const {
         const auto at = static_cast<std::size_t>(run);
         return near_[at] != 0 || (at > 0 && near_[at - 1] != 0) ||

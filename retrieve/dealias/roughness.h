@@ -4,8 +4,8 @@
 // Only differences along a radial count. Noise is as rough along a radial as across, but a tornado
 // changes the velocity most from radial to radial.
 //
-// Accuracy  In three real volumes, folded again at 8.5 to 20 m/s, this mark has 13 to 70 % of
-//           the wrong gates, and 0.2 to 9 % of the right ones (bench/compare_dealiasing.py).
+// Accuracy  In three real volumes, folded again at 8.5 to 20 m/s, this marks 13 to 70 % of the
+//           wrong gates, and 0.2 to 9 % of the right gates (bench/compare_dealiasing.py).
 // Threads   Pure functions.
 #pragma once
 

@@ -151,7 +151,7 @@ class ShearRepair {
             const int before = this->before(radial), after = this->after(radial);
             if (gate + 1 < sheet_.gates) meet(here, here + 1);
             if (after >= 0) meet(here, sheet_.at(after, gate));
-            // The pair before a gate is known unless its other gate is not marked.
+            // If the gate before this gate is marked too, the loop meets this pair at that gate.
             if (gate > 0 && node_[here - 1] < 0) meet(here - 1, here);
             if (before >= 0 && node_[sheet_.at(before, gate)] < 0)
                 meet(sheet_.at(before, gate), here);

@@ -1,7 +1,8 @@
 // retrieve/dealias/unfolded_sheet.h -- the velocities of a sheet with their fold numbers, and where
 // neighboring gates differ.
 //
-// Most neighbors are alike. Marks for runs of 16 gates let later steps skip these.
+// Most neighbors are alike. Marks for runs of 16 gates let later steps skip the runs in which all
+// gates are alike.
 //
 // Units     Turns, as in velocity_sheet.h.
 // Threads   Plain data.

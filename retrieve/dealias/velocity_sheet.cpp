@@ -43,8 +43,8 @@ class TurnsOfCodes {
     std::vector<float> table_;
 };
 
-// Returns true if there are at least 90 radials, and the step from the last to the first is at most
-// three usual steps.
+// Returns true if there are at least 90 radials, and the step from the last to the first radial is
+// at most three usual steps.
 bool closes(const std::vector<float>& azimuths_deg) {
     if (azimuths_deg.size() < 90) return false;
     const double step = std::remainder(azimuths_deg.front() - azimuths_deg.back(), 360.0);

@@ -23,7 +23,7 @@ inline constexpr float least_nyquist_mps = 1, most_nyquist_mps = 200;
 [[nodiscard]] bool can_be_unfolded(const level2::Radial& radial);
 
 // Returns the difference of two velocities, or 0 if one has no value, so that the caller may
-// compare it (base/floating_point.h).
+// compare the result (base/floating_point.h).
 [[nodiscard]] inline float turns_apart(float a, float b) {
     const float apart = std::abs(a - b);
     return std::isnan(apart) ? 0 : apart;
@@ -61,8 +61,8 @@ struct VelocitySheet {
 [[nodiscard]] std::vector<VelocitySheet> velocity_sheets(const level2::Sweep& sweep,
                                                          std::size_t moment);
 
-// Drops the gates beyond the last gate at which a radial has a value, which are many in high
-// sweeps.
+// Drops the gates beyond the last gate at which any radial has a value. High sweeps have many such
+// gates.
 void drop_empty_gates(VelocitySheet& sheet);
 
 }  // namespace stormcellar::retrieve

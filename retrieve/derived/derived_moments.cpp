@@ -70,8 +70,8 @@ std::uint16_t storm_relative_code(const SweepMoment& dealiased, std::uint16_t co
                                                  static_cast<double>(dealiased.offset)));
 }
 
-// Returns the motion's part along a radial, which is the same for all its gates. For damaged
-// angles, returns infinity, which makes the gates ambiguous.
+// Returns the component of the motion along a radial, which is the same for all gates of the
+// radial. For damaged angles, returns infinity, which makes the gates ambiguous.
 double along_radial_mps(const level2::Radial& radial, const Motion& storm) {
     if (!std::isfinite(radial.azimuth_deg) || !std::isfinite(radial.elevation_deg))
         return std::numeric_limits<double>::infinity();
@@ -112,7 +112,7 @@ Result<std::vector<std::string>> add_storm_relative(level2::Volume& volume,
         fmt::format("{}{}, {}", motion_words, format_motion(storm->motion), storm->source)};
 }
 
-// Returns a copy of the sweep without its other moments.
+// Returns a copy of the sweep that has no moments but VEL.
 level2::Sweep velocities_of(const level2::Sweep& sweep) {
     level2::Sweep copy{sweep.elevation_number,  sweep.message_type, sweep.azimuth_spacing_deg,
                        sweep.vcp_elevation_deg, sweep.radials,      {}};
@@ -121,7 +121,7 @@ level2::Sweep velocities_of(const level2::Sweep& sweep) {
     return copy;
 }
 
-// Returns true if each sweep with VELD has as many of the wanted moment.
+// Returns true if each sweep has the wanted moment as often as it has VELD.
 bool has_with_dealiased(const level2::Volume& volume, Moment wanted) {
     return std::ranges::all_of(volume.sweeps, [wanted](const level2::Sweep& sweep) {
         return std::ranges::count(sweep.moments, Moment::veld, &SweepMoment::moment) ==
@@ -131,7 +131,7 @@ bool has_with_dealiased(const level2::Volume& volume, Moment wanted) {
 
 constexpr std::string_view shear_words = "shear of velocities dealiased by the rung ";
 
-// Returns the text after these words, up to a character, if all notes with them agree.
+// Returns the text after these words, up to a character, if all notes that have these words agree.
 std::optional<std::string> text_in_notes(std::span<const std::string> notes, std::string_view words,
                                          char end = ',') {
     std::optional<std::string> text;
@@ -258,7 +258,7 @@ level2::Sweep dealiased_sweep(const level2::Sweep& sweep, Dealiasing rung,
     level2::Volume alone;
     alone.sweeps.push_back(velocities_of(sweep));
     const auto dealiased = add_dealiased_velocity(alone, rung, known);
-    // Both fail only if the sweep has no velocities that can be dealiased.
+    // Both calls fail only if the sweep has no velocities that can be dealiased.
     if (dealiased) (void)add_shear_moments(alone, *dealiased, wanted);
     return std::move(alone.sweeps.front());
 }

@@ -46,7 +46,7 @@ SweepMoment quality_moment(const SweepMoment& reflectivity, const SweepQuality& 
             const std::size_t at = radial * static_cast<std::size_t>(made.gate_stride) +
                                    static_cast<std::size_t>(gate);
             const float probability = quality.probabilities[at];
-            // Echo whose probability is unknown is no measurement of POW; flags stay.
+            // A gate with echo of unknown probability has no value in POW; flags stay.
             const std::uint16_t flag = reflectivity.code(radial, gate) < 2
                                            ? reflectivity.code(radial, gate)
                                            : std::uint16_t{2};
@@ -112,8 +112,8 @@ JudgedGates judged_gates(const SweepMoment& moment, const SweepMoment& judged) {
 // Removes the gates of one sweep whose probability is too low.
 class WeatherKeeper {
   public:
-    // Sweeps take the probabilities of the moment `judged`. `radials` are the numbers of their
-    // radials there, or -1.
+    // `judged` is the moment that has the probabilities. `radials` has, for each radial of the
+    // sweep, the number of the radial of `judged`, or -1.
     WeatherKeeper(const SweepMoment& judged, std::span<const float> probabilities, float kept,
                   const std::vector<std::int32_t>& radials)
         : judged_(judged), radials_(radials), is_low_(probabilities.size()) {
@@ -184,7 +184,8 @@ class WeatherKeeper {
     std::vector<std::uint8_t> is_low_;
 };
 
-// Returns the sweep whose probabilities a sweep takes: itself, if it has reflectivity.
+// Returns the sweep from which a sweep takes its probabilities. A sweep with reflectivity takes its
+// own.
 std::optional<std::size_t> judged_sweep(const level2::Volume& volume, std::size_t number) {
     return companion_sweep(volume, number, volume.sweeps[number].mean_elevation_deg(), Moment::ref);
 }

@@ -1,5 +1,5 @@
 // retrieve/derived/quality_moment.h -- the moment POW, probability of weather, and volumes without
-// the echo that is probably no weather.
+// the echo that is probably not weather.
 //
 // POW has the gates and the flags of REF, and comes in steps of 0.004.
 //
@@ -19,7 +19,7 @@ namespace stormcellar::retrieve {
 // Adds POW after each reflectivity moment. Does nothing to a volume without reflectivity.
 void add_quality_moment(level2::Volume& volume);
 
-// The reflectivity gates with echo, and those of them that are left out.
+// The number of reflectivity gates with echo, and how many of them are left out.
 struct LeftOutEcho {
     std::int64_t echo = 0, left_out = 0;
     std::array<std::int64_t, echo_kind_count> of_kind{};  // of the gates left out; 0 if unnamed
@@ -39,8 +39,8 @@ struct LeftOutEcho {
 LeftOutEcho keep_weather(level2::Volume& volume, double least);
 
 // Does the same to one sweep of a growing volume. `others` are the sweeps that came before. Kinds
-// get no names, because naming them takes longer than all the rest, and a growing volume is judged
-// many times.
+// get no names, because naming them takes longer than all other work, and a growing volume is
+// judged many times.
 LeftOutEcho keep_weather(level2::Sweep& sweep, std::span<const level2::Sweep> others, double least);
 
 // The words with which the note begins.

@@ -1,4 +1,4 @@
-// retrieve/derived/quality_note.h -- the numbers in notes about echo that is probably no weather.
+// retrieve/derived/quality_note.h -- the numbers in notes about echo that is probably not weather.
 //
 // Threads   Pure functions.
 #pragma once

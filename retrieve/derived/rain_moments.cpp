@@ -25,8 +25,8 @@ constexpr float rate_scale = 50, rate_offset = 3;
 constexpr std::uint16_t unfitted_code = 2;
 constexpr double largest_rate = 1300;
 
-// Returns a moment with the gates and the flags of another one. code_of(radial, gate, place in the
-// rows) gives the codes of its valid gates.
+// Returns a moment with the gates and the flags of another moment. code_of(radial, gate, place in
+// the rows) gives the codes of its valid gates.
 template <class CodeOf>
 SweepMoment moment_like(const SweepMoment& from, Moment moment, float scale, float offset,
                         CodeOf code_of) {
@@ -59,7 +59,7 @@ SweepMoment kdp_moment(const SweepMoment& phase, const SweepKdp& kdp) {
         });
 }
 
-// Finds KDP at the gates of a sweep's reflectivity, in the sweep itself or in the nearest one.
+// Finds KDP at the gates of a sweep's reflectivity, in the sweep itself or in the nearest sweep.
 class KdpBeside {
   public:
     KdpBeside(const level2::Volume& volume, const std::vector<SweepKdp>& all, std::size_t sweep) {

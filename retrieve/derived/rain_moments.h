@@ -2,9 +2,9 @@
 // rate.
 //
 // KDP has the gates and the flags of PHI, in steps of 0.005 degrees/km. A gate with a phase is
-// ambiguous where no KDP can be fitted, and where it would exceed 160 degrees/km. RATE has the
+// ambiguous where no KDP can be fitted, and where KDP would exceed 160 degrees/km. RATE has the
 // gates and the flags of REF, in steps of 0.02 mm/h up to 1300. A sweep without PHI takes KDP for
-// its RATE from the nearest sweep that has it.
+// its RATE from the nearest sweep that has PHI.
 //
 // Threads   Pure functions.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace stormcellar::retrieve {
 
-// Adds those of the wanted moments that are KDP or RATE.
+// Adds KDP and RATE, each only if it is wanted.
 void add_rain_moments(level2::Volume& volume, std::span<const level2::Moment> wanted);
 
 }  // namespace stormcellar::retrieve

@@ -9,7 +9,7 @@
 namespace stormcellar::retrieve {
 
 // Returns the fold numbers of all velocity moments, as dealias() found them. A gate is ambiguous if
-// it is in VELD. Without VELD, all gates are ambiguous. Counts are 0.
+// VELD marks it as ambiguous. Without VELD, all gates are ambiguous. Counts are 0.
 [[nodiscard]] Dealiased read_folds(const level2::Volume& volume);
 
 }  // namespace stormcellar::retrieve

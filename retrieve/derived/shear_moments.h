@@ -13,8 +13,8 @@
 
 namespace stormcellar::retrieve {
 
-// Adds those of the wanted moments that are shear, at the end of each sweep with VELD. `dealiased`
-// has the fold numbers of this volume. Returns whether any was wanted, or the errors of
+// Adds the wanted moments of shear at the end of each sweep with VELD. `dealiased` has the fold
+// numbers of this volume. Returns true if a moment of shear was wanted. Errors: those of
 // sweep_shear().
 [[nodiscard]] Result<bool> add_shear_moments(level2::Volume& volume, const Dealiased& dealiased,
                                              std::span<const level2::Moment> wanted);

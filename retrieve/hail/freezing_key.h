@@ -9,8 +9,8 @@
 
 namespace stormcellar::retrieve {
 
-// Sets both levels if the table has the key. Other values than two heights that validate() accepts
-// become a complaint of the table.
+// Sets both levels if the table has the key. If the value is not two heights that validate()
+// accepts, the table gets a complaint.
 void read_freezing_levels(TomlTable& table, FreezingLevels& levels);
 
 }  // namespace stormcellar::retrieve

@@ -7,10 +7,10 @@
 namespace stormcellar::retrieve {
 namespace {
 
-constexpr double share_of_flux = 0.1;  // SHI over the integral of the flux
+constexpr double share_of_flux = 0.1;  // SHI divided by the integral of the flux
 
-// Integrates the weight of temperature from far below up to a height: a ramp between the levels,
-// and 1 above.
+// Integrates the weight of temperature over height, up to a height. The weight is 0 below the level
+// of 0 C and 1 above the level of -20 C; it rises evenly between the two.
 double weight_up_to(double height_m, const FreezingLevels& levels) {
     const double depth_m = levels.minus_20_c_m - levels.zero_c_m;
     const double above_m = height_m - levels.zero_c_m;

@@ -1,10 +1,11 @@
 // retrieve/hail/hail_mosaic.h -- merges the hail of several radars by maximum.
 //
 // A mosaic merges reflectivity by a mean of the radars that see a cell, which weakens hail that one
-// radar sees well and another one poorly. So the columns with hail come whole from the radar whose
-// SHI is largest. SHI and MESH of such a mosaic are the largest of its radars, column by column,
-// and "at least" is that of the same radar. Columns in which no radar sees hail stay as they are
-// merged: a mean is never larger than the largest value, so they have no hail either.
+// radar sees well and another radar poorly. So the columns with hail come whole from the radar
+// whose SHI is largest. SHI and MESH of such a mosaic are the largest of its radars, column by
+// column, and the mark "at least" comes from the same radar. Columns in which no radar sees hail
+// stay as they are merged: a mean is never larger than the largest value, so they have no hail
+// either.
 //
 // Source    MRMS merges hail by maximum (Smith et al. 2016).
 // Units     Heights in meters above mean sea level.

@@ -1,4 +1,4 @@
-// Classifies gates from the means, deviations and heights that each has.
+// Classifies each gate by means, standard deviations and its height.
 #include "stormcellar/retrieve/hydrometeors.h"
 
 #include <algorithm>
@@ -49,7 +49,8 @@ class VariablesOfSweep {
         const level2::SweepMoment* moment = sweep_.find(kind);
         return moment != nullptr ? gate_field(sweep_, *moment) : GateField{};
     }
-    // Calls visit(index of the gate among those with echo, its place in a row there).
+    // For each gate with echo that has a place, calls visit(index of the gate among the gates with
+    // echo, place).
     template <class Visit>
     void visit_radial(std::size_t radial, const std::vector<std::int32_t>& places, Visit visit) {
         std::size_t i = echo_.begin(radial);
@@ -128,7 +129,7 @@ std::vector<BeamPlace> beam_places(const GateField& field, double elevation_deg,
     return places;
 }
 
-// The places for each sector of the layer.
+// Returns the places of the beam for each sector of the melting layer.
 std::vector<std::vector<BeamPlace>> places_by_sector(const GateField& field, double elevation_deg,
                                                      const MeltingLayer& layer) {
     std::vector<std::vector<BeamPlace>> places;

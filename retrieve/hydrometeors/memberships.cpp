@@ -103,8 +103,8 @@ class Curves {
     std::array<float, 6> values_;
 };
 
-// Returns 1 between the inner corners, 0 outside the outer ones. Corners that are functions may
-// cross, so the inner ones count first.
+// Returns 1 between the inner corners, 0 outside the outer corners. Corners that are functions may
+// cross, so the inner corners count first.
 float fit_of(const Trapezoid& shape, const Curves& curves, float value) {
     const float begin = curves.at(shape[1]), end = curves.at(shape[2]);
     if (value >= begin && value <= end) return 1;

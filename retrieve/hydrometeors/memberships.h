@@ -32,8 +32,8 @@ enum class BeamPlace : std::uint8_t {
     above,
 };
 
-// Returns the class that fits best among those possible at a place. Returns none if no class fits,
-// or if reflectivity, ZDR or the correlation is unknown.
+// Returns the class that fits best among the classes that are possible at a place. Returns none if
+// no class fits, or if reflectivity, ZDR or the correlation is unknown.
 [[nodiscard]] Hydrometeor best_class(const GateVariables& gate, BeamPlace place);
 
 }  // namespace stormcellar::retrieve

@@ -1,8 +1,9 @@
 // retrieve/judge/refold.h -- folds velocities again at a lower Nyquist velocity, and counts the
 // fold numbers that a rung gets wrong.
 //
-// With this a real volume can judge dealias(): fold numbers that are certain at the real Nyquist
-// velocity give the true velocity of a gate, and the same gate folded more often is harder.
+// So real volumes can test dealias(). Fold numbers that are certain at the real Nyquist velocity
+// give the true velocity of each gate. At a lower Nyquist velocity, the same gates are folded more
+// often, so that their fold numbers are harder to find.
 //
 // Units     m/s; fold numbers.
 // Accuracy  Velocities are rounded to 0.01 m/s, in which radars send the Nyquist velocity
@@ -40,7 +41,7 @@ struct KnownVolume {
 struct FoldScore {
     std::int64_t gates = 0, ambiguous = 0;  // gates with a velocity, and those marked ambiguous
     std::int64_t known = 0, wrong = 0;      // gates whose true fold number is known
-    std::int64_t known_unmarked = 0, wrong_unmarked = 0;  // those of them that are not marked
+    std::int64_t known_unmarked = 0, wrong_unmarked = 0;  // the same, without marked gates
 
     // Shares from 0 to 1; 0 if there is no gate.
     [[nodiscard]] double wrong_share() const;

@@ -30,7 +30,8 @@ class KdpMaker {
             gates_there_[gate] = correlations.gate_at(phases.range_m(gate));
     }
 
-    // Fits the gates up to the last one with a phase, and keeps those that have one.
+    // Fits slopes at the gates up to the last gate with a phase, and keeps the slopes of gates with
+    // a phase.
     void fit(std::size_t radial, SweepKdp& made) {
         const std::size_t gates = phases_.ends[radial];
         if (gates == 0) return;
@@ -51,7 +52,8 @@ class KdpMaker {
     }
 
   private:
-    // Finds the correlation coefficients at the gates. Does nothing if the sweep has none.
+    // Finds the correlation coefficients at the gates. Does nothing if the sweep has no
+    // correlations.
     void find_correlations(std::size_t radial, std::size_t gates) {
         if (correlations_.is_empty()) return;
         known_.resize(gates);

@@ -38,7 +38,7 @@ inline std::optional<Line> line_of(const LineSums& sums) {
     return Line{slope, sums.x / sums.n, sums.y / sums.n, spread, sums.n};
 }
 
-// Returns the root mean square of what the line leaves, two parameters allowed for.
+// Returns the root mean square of the residuals, corrected for the two parameters of the line.
 inline double residual_deg(const LineSums& sums, const Line& line) {
     const double squares =
         sums.yy - sums.y * sums.y / sums.n - line.slope * line.slope * line.spread;
@@ -54,7 +54,7 @@ class RowSums {
     // Vectors may read this many numbers beyond the reach, but do not use them.
     static constexpr std::ptrdiff_t spare = 16;
 
-    // Takes another row, and uses the memory of the last one again.
+    // Takes another row, and uses the memory of the last row again.
     void read(const PhaseRow& row, std::ptrdiff_t reach) {
         reach_ = reach;
         const std::size_t gates = row.phases_deg.size();
@@ -83,7 +83,8 @@ class RowSums {
     [[nodiscard]] double count(std::ptrdiff_t begin, std::ptrdiff_t end) const {
         return before(n, end)[0] - before(n, begin)[0];
     }
-    // Returns the sum of a term over the gates before this one, followed by those of the next.
+    // Returns a pointer to the sum of a term over the gates before this one. The sums for the next
+    // gates follow.
     [[nodiscard]] const double* before(Term term, std::ptrdiff_t gate) const {
         return before_[term].data() + (gate + reach_);
     }

@@ -13,7 +13,7 @@ namespace stormcellar::retrieve {
 
 struct PhaseRow {
     std::vector<double> phases_deg;     // unfolded; 0 at gates that are not good
-    std::vector<std::uint8_t> is_good;  // the phase tells how the rain changes it
+    std::vector<std::uint8_t> is_good;  // the phase shows the effect of the rain
     std::vector<std::uint8_t> has_phase;
 };
 
@@ -25,8 +25,8 @@ struct PhaseRow {
                                      std::span<const float> correlations);
 
 // Returns the standard deviation of the noise about each gate, from second differences of the
-// phases in `reach` gates on both sides, which a ramp and a step of the slope do not change. At
-// least a tenth of a degree, the rounding of the radar's own codes.
+// phases in `reach` gates on both sides. A ramp and a step of the slope do not change the result.
+// The result is at least a tenth of a degree, which is the rounding of the radar's codes.
 [[nodiscard]] std::vector<double> phase_noise_deg(const PhaseRow& row, int reach);
 
 }  // namespace stormcellar::retrieve

@@ -13,8 +13,8 @@ namespace {
 constexpr std::array window_lengths_m = {1750.0, 2250.0,  3250.0,  4750.0,
                                          7250.0, 10250.0, 14250.0, 20250.0};
 constexpr float confidence = 2.3F;  // standard errors of the intervals that must intersect
-// A gate takes windows with 0, 1, ... or 8 eighths of themselves before it. Windows about it count
-// in full, because a slope that changes evenly does not bias them.
+// A gate takes windows of which 0, 1, ... or 8 eighths are before the gate. Windows that reach to
+// both sides count in full, because a slope that changes evenly does not bias them.
 constexpr int window_parts = 8;
 constexpr float weight_aside = 0.1F;
 constexpr double least_good_share = 0.6;
@@ -48,7 +48,7 @@ bool is_backscatter(const RowSums& sums, std::ptrdiff_t begin, int gates, int fl
     if (!line) return false;
     const double x = inside.x / inside.n;
     const double deviation = std::abs(inside.y / inside.n - line->y - line->slope * (x - line->x));
-    // Most gates end here, before the lines of the flanks.
+    // Most calls end here, before the lines of the flanks are fitted.
     if (deviation < least_backscatter_deg ||
         residual_deg(beside, *line) > most_flank_noise * noise_deg)
         return false;
@@ -56,7 +56,8 @@ bool is_backscatter(const RowSums& sums, std::ptrdiff_t begin, int gates, int fl
     if (!before || !after) return false;
     const double variance =
         1 / inside.n + 1 / line->n + (x - line->x) * (x - line->x) / line->spread;
-    // A bend of the phase also leaves the line; the slopes of the flanks tell how far it may.
+    // A bend of the phase also deviates from the line. The slopes of the flanks give a bound of
+    // this deviation.
     const double bend = std::abs(after->slope - before->slope) +
                         2 * noise_deg * std::sqrt(1 / before->spread + 1 / after->spread);
     const double most_of_bend = bend * (after->x - before->x) / 8;
@@ -72,8 +73,8 @@ SlopeFitter::SlopeFitter(double spacing_m)
         lengths_.emplace_back().gates = gates_in(length_m, spacing_m);
 }
 
-// Takes backscatter phase out of the good gates: up to 3 km of gates that leave a line on which
-// their neighbors on both sides stay. Returns true if there is some.
+// Marks gates with backscatter phase as not good. These are up to 3 km of gates that deviate from a
+// line that fits the gates on both sides. Returns true if there are any.
 bool SlopeFitter::leave_out_backscatter(PhaseRow& row) const {
     const int flank = gates_in(flank_m, spacing_m_);
     std::vector<std::uint8_t> is_good = row.is_good;
@@ -123,7 +124,7 @@ const PhaseSlopes& SlopeFitter::fit(PhaseRow& row) {
         const float slope = means_.slopes[gate] / weights;
         slopes_.deg_per_gate[gate] = slope;
         // The windows share their gates, so the error is the mean of their errors. Where the phase
-        // is even, long windows weigh most, and may hide a slow change from their errors.
+        // is even, long windows weigh most. Their errors may not show a slow change of the slope.
         const float error = means_.errors[gate] / weights;
         const float variance = std::max(0.0F, means_.squares[gate] / weights - slope * slope);
         const bool is_even = means_.is_even[gate] > 0;
@@ -132,7 +133,7 @@ const PhaseSlopes& SlopeFitter::fit(PhaseRow& row) {
     return slopes_;
 }
 
-// Repeats the noise of the first gate before the row, and that of the last one behind it.
+// Repeats the noise of the first gate before the row, and the noise of the last gate behind it.
 void SlopeFitter::extend_noise() {
     const auto reach = static_cast<std::size_t>(reach_);
     const double first = noise_deg_.front(), last = noise_deg_.back();

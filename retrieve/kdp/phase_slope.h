@@ -1,10 +1,10 @@
 // retrieve/kdp/phase_slope.h -- the slope of the differential phase along one radial, by least
 // squares in windows that adapt to it.
 //
-// Windows before, about and after a gate grow until the slope in a longer one contradicts the slope
-// in a shorter one by more than their errors allow (intersection of confidence intervals:
+// Windows before, about and after a gate grow until the slope in a longer window contradicts the
+// slope in a shorter window by more than their errors allow (intersection of confidence intervals:
 // Goldenshluger and Nemirovski 1997, Katkovnik 1999). The slope is the mean of all windows that
-// agree, and those about the gate weigh most. So the windows are long where the phase changes
+// agree, and windows about the gate weigh most. So the windows are long where the phase changes
 // evenly, as in weak rain, and short beside the edges of a core. At gates where the phase is a line
 // in most windows of the greatest length, long windows weigh most, which halves the error.
 //
@@ -27,12 +27,12 @@ struct PhaseSlopes {
     std::vector<float> error;         // standard error of the slope; NaN likewise
 };
 
-// Fits the slopes of one radial after another. Each radial reuses the memory of the last one.
+// Fits the slopes of one radial after another. Each radial reuses the memory of the last radial.
 class SlopeFitter {
   public:
     explicit SlopeFitter(double spacing_m);
 
-    // Takes backscatter phase out of the good gates, and fits slopes at the gates that have a
+    // Marks gates with backscatter phase as not good, and fits slopes at the gates that have a
     // phase. The row must have gates. The result is valid until the next call.
     const PhaseSlopes& fit(PhaseRow& row);
 

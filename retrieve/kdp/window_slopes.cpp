@@ -66,7 +66,7 @@ void fit_windows(const RowSums& sums, const double* HWY_RESTRICT noise, const Wi
     }
 }
 
-// Returns where the window is that begins `part` of `parts` of itself before a gate.
+// Returns the place of the window of which `part` of `parts` parts are before a gate.
 HWY_INLINE std::size_t place_of(const WindowSlopes& length, std::ptrdiff_t part,
                                 std::ptrdiff_t parts, std::size_t gate) {
     const std::ptrdiff_t before = part * (length.gates - 1) / parts;

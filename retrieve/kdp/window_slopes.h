@@ -23,7 +23,7 @@ struct WindowSlopes {
         high;  // the slope's interval of confidence; all numbers without a slope
     std::vector<float> precision;  // 1 / fit_error^2; 0 without a slope
     std::vector<float> weight;     // error / fit_error^2; 0 without a slope
-    // 1 if the phase is a line in the window, -2 if it is none, and 0 without a slope. So a
+    // 1 if the phase is a line in the window, -2 if it is no line, and 0 without a slope. So a
     // positive sum means that more than two thirds of the windows show a line.
     std::vector<float> line_score;
 };
@@ -36,22 +36,22 @@ struct WindowRule {
 };
 
 // Fits the windows of `windows.gates` gates that touch a row. `noise_deg` has the noise about each
-// gate of the row, preceded by the noise of the first gate `reach` times and followed by that of
-// the last gate, reach + RowSums::spare times. `reach` is that of the sums.
+// gate of the row, preceded by the noise of the first gate, `reach` times, and followed by the
+// noise of the last gate, reach + RowSums::spare times. `reach` is that of the sums.
 void fit_windows(const RowSums& sums, std::span<const double> noise_deg, std::size_t reach,
                  const WindowRule& rule, WindowSlopes& windows);
 
 // Sums over the windows that count at a gate.
 struct SlopeSums {
     std::vector<float> is_even;  // 1 where the phase is a line in the longest windows, else 0
-    std::vector<float> weights, slopes, squares, errors;  // the last three weighted
+    std::vector<float> weights, slopes, squares, errors;  // all but `weights` are weighted
 
-    // Begins the sums of `gates` gates. `longest` are the windows of the greatest length, which
-    // hold a gate with 0, 1, ... or all `parts` parts of themselves before it.
+    // Begins the sums of `gates` gates. `longest` are the windows of the greatest length, of which
+    // 0, 1, ... or all `parts` parts are before the gate.
     void begin(const WindowSlopes& longest, std::ptrdiff_t parts, std::size_t gates);
 };
 
-// Adds, at each gate, the windows with `part` of `parts` of themselves before the gate, from the
+// Adds, at each gate, the windows of which `part` of `parts` parts are before the gate, from the
 // first length on, as long as their intervals have a slope in common. `share` multiplies their
 // weights. Where the phase is even, the weight of a window is its precision.
 void add_windows(std::span<const WindowSlopes> lengths, std::ptrdiff_t part, std::ptrdiff_t parts,

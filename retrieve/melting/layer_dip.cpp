@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t near_levels = 3, far_levels = 12;  // of the air on each side of a dip
 constexpr std::size_t least_levels = 4;                  // with means, on each side
 constexpr std::size_t peak_levels = 5;                   // on each side, for the other maxima
-// A side is as correlated as its best quarter: the dip itself may reach into the side.
+// The correlation of a side is that of its best quarter, because the dip may reach into the side.
 constexpr double side_share = 0.75;
 constexpr double least_depth = 0.006, deepest = 0.8, shallowest = 0.985;
 constexpr double least_peak_dbz = 20, least_rise_dbz = 1.5, least_rise_db = 0.2;
-constexpr double least_power = 0.1;  // of the minimum's, where a dip ends
+constexpr double least_power = 0.1;  // share of the minimum's power where a dip ends
 // From the middle of the power to the ends of melting, in standard deviations of the power. For
 // products of two parabolas it is 2.65; sharper shapes have more.
 constexpr double half_depth = 3.1;
@@ -43,7 +43,7 @@ Side side_of(const HeightProfile& profile, std::size_t level, bool is_above) {
     return side;
 }
 
-// Returns the mean of a level and its neighbors, with half the weight for each of these.
+// Returns the mean of a level and its neighbors, with half the weight for each neighbor.
 std::optional<double> smooth_correlation(const HeightProfile& profile, std::size_t level) {
     if (!profile[level]) return std::nullopt;
     double sum = profile[level]->correlation, weight = 1;
@@ -60,9 +60,10 @@ struct Minimum {
     double depth = 0, above = 0, below = 0;  // correlations of the air on both sides
 };
 
-// Returns the power of melting snow at a level: reflectivity, linear, times what is missing from
-// the correlation of the air on both sides. The beam spreads this product, and neither factor, as
-// it spreads any power, so that its moments tell those of the layer.
+// Returns the power of melting snow at a level: linear reflectivity times the difference to the
+// correlation of the air on both sides. The beam smooths this product as it smooths any power, but
+// this is true of neither factor alone. So the mean and the standard deviation of this product are
+// those of the layer.
 std::optional<double> melting_power(const HeightProfile& profile, const Minimum& minimum,
                                     std::size_t level) {
     if (!profile[level]) return std::nullopt;
@@ -85,7 +86,7 @@ struct PowerSums {
 };
 
 // Adds the levels on one side of the minimum down to a small share of its power. Returns false if
-// the profile ends before, or lacks two levels in a row.
+// the profile ends before that, or lacks two levels in a row.
 bool add_side(const HeightProfile& profile, const Minimum& minimum, bool is_above,
               PowerSums& sums) {
     const double peak = melting_power(profile, minimum, minimum.level).value_or(0);
@@ -130,7 +131,7 @@ std::optional<LayerDip> dip_at(const HeightProfile& profile, const Minimum& mini
         return std::nullopt;
     const double beam = profile[minimum.level]->beam_m;
     const double measured = sums.variance() * profile_step_m * profile_step_m;
-    // A wide beam hides the depth of the layer, which then is the usual one.
+    // A wide beam hides the depth of the layer, which then is the usual depth.
     const double trust = 1 / (1 + std::pow(beam / blurred_m, 4));
     const double own = std::max(measured - beam * beam, 0.0);
     const double spread = std::sqrt(std::lerp(usual_spread_m * usual_spread_m, own, trust));

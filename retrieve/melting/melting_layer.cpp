@@ -29,7 +29,7 @@ struct SectorDip {
     LayerDip dip;
 };
 
-// All dips of the volume, and what else its profiles say.
+// All dips of the volume, and other facts from its profiles.
 struct Found {
     std::vector<SectorDip> dips;
     int sweeps = 0;  // in the window of elevations

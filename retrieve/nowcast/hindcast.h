@@ -1,14 +1,14 @@
 // retrieve/nowcast/hindcast.h -- measures the error of nowcasts by lead time on the grids at hand.
 //
-// Method    Each grid but the first and the last is taken as if it were the latest: a nowcast is
-//           made from it and from earlier grids alone, for the time of each later grid within 60
-//           minutes, and compared with that grid, which was held out. The same is done with
-//           persistence, the grid as it was.
+// Method    Each grid but the first and the last is treated as the latest. From this grid and the
+//           earlier grids, a nowcast is made for the time of each later grid within 60 minutes, and
+//           compared with that later grid. Persistence, which is the unchanged grid, is compared in
+//           the same way.
 // Units     Maps of the maximum of each column, in dBZ. No echo, and anything below 0 dBZ, counts
-//           as 0. Columns are compared that all three maps have seen. For the mean absolute error
-//           at least one of the three has 5 dBZ or more.
+//           as 0. Columns are compared that all three maps have seen. For the mean absolute error,
+//           at least one of the three maps must have 5 dBZ or more.
 // Score     CSI, the critical success index: columns with at least the threshold in both maps,
-//           divided by those with it in at least one of the two.
+//           divided by columns with at least the threshold in one map or in both.
 // Limits    The hindcasts of one sequence overlap, so they are not independent.
 // Threads   Pure functions.
 #pragma once
@@ -40,8 +40,9 @@ struct LeadScore {
     ForecastScore nowcast, persistence;
 };
 
-// Scores the leads, which must rise. A hindcast counts for the nearest lead if that is within 2.5
-// minutes. `pairs` are the pair_motions() of the grids. Errors: those of grid::extrapolate().
+// Scores the leads, which must rise. A hindcast counts for the lead nearest to its own, if the two
+// differ by at most 2.5 minutes. `pairs` are the pair_motions() of the grids. Errors: those of
+// grid::extrapolate().
 [[nodiscard]] Result<std::vector<LeadScore>> score_hindcasts(
     std::span<const TimedGrid> grids, std::span<const std::optional<grid::MotionField>> pairs,
     std::span<const double> leads_minutes, int threads);

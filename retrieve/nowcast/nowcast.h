@@ -9,9 +9,9 @@
 //           motion that is known. Leads are at most 60 minutes, because storms change sooner than
 //           they move away.
 // Accuracy  On the five volumes of KBGM of 2005-08-22, the mean absolute error after 6, 13 and 18
-//           minutes is 1.9, 2.3 and 2.6 dB, and that of persistence 2.7, 3.3 and 3.7 dB
+//           minutes is 1.9, 2.3 and 2.6 dB, and the error of persistence is 2.7, 3.3 and 3.7 dB
 //           (bench/compare_nowcast.py). There is no bound: retrieve/nowcast/hindcast.h measures the
-//           error on the grids at hand, and pictures and files say the result.
+//           error on the grids at hand, and pictures and files give the result.
 // Not covered  Growth, decay and new storms; learned nowcasts.
 // Source    Germann and Zawadzki (2002), Mon. Wea. Rev. 130, 2859.
 // Threads   Pure functions. The results have the same bits for any number of threads.
@@ -45,8 +45,8 @@ using PairMotions = std::vector<std::optional<grid::MotionField>>;
 // times that do not rise, and a gap of more than 30 minutes.
 [[nodiscard]] Result<PairMotions> pair_motions(std::span<const TimedGrid> grids, int threads);
 
-// Returns the motion with which a nowcast leaves the last grid of the pairs, or none if no motion
-// of the last four pairs is known.
+// Returns the motion by which a nowcast moves the last grid of the pairs, or none if no motion of
+// the last four pairs is known.
 [[nodiscard]] std::optional<grid::MotionField> latest_motion(
     std::span<const std::optional<grid::MotionField>> pairs, const grid::GridSpec& spec);
 

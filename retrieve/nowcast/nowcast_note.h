@@ -1,6 +1,6 @@
 // retrieve/nowcast/nowcast_note.h -- the notes by which a grid says that it is a nowcast.
 //
-// Every nowcast has the first note, "nowcast, 30 minutes, by advection". The second one has the
+// Every nowcast has the first note, "nowcast, 30 minutes, by advection". The second note has the
 // error that was measured (score_text()).
 //
 // Threads   Pure functions.

@@ -2,7 +2,8 @@
 // of weather.
 //
 // The log-odds of weather are a constant plus one number for each feature. That number is linear
-// between knots and constant beyond the first and the last knot; a missing feature has its own.
+// between knots and constant beyond the first and the last knot. A missing feature has a number of
+// its own.
 //
 // Accuracy  RuleTables rounds a feature to 1/511 of the distance between the outer knots.
 // Threads   Plain data and const functions.
@@ -51,7 +52,7 @@ class RuleTables {
     static constexpr std::int32_t last_step = steps - 1;
     struct Table {
         float first = 0, steps_per_unit = 0;
-        std::array<float, steps + 1> log_odds{};  // the last one is that of a missing value
+        std::array<float, steps + 1> log_odds{};  // the last entry is that of a missing value
     };
     float constant_;
     std::vector<Table> tables_;

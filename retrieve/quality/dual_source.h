@@ -1,5 +1,5 @@
-// retrieve/quality/dual_source.h -- results that a sweep without dual polarization takes from the
-// sweep of the same angle that has it.
+// retrieve/quality/dual_source.h -- results that a sweep without dual polarization takes from a
+// sweep of the same angle that has dual polarization.
 //
 // Threads   Pure functions.
 #pragma once
@@ -18,13 +18,13 @@ namespace stormcellar::retrieve {
 
 [[nodiscard]] bool has_dual_polarization(const level2::Sweep& sweep);
 
-// Returns the sweep with dual polarization whose results a sweep without takes.
+// Returns the sweep with dual polarization from which another sweep takes results.
 [[nodiscard]] std::optional<std::size_t> dual_source(const level2::Volume& volume,
                                                      std::size_t sweep);
 
-// Returns the results at the gates of `field`, a moment of the sweep `to`, that are nearest to
-// those of `there`, a moment of the sweep `from`. Gates without echo, and gates that have no
-// nearest gate, get `none`.
+// Returns, for each gate of `field`, a moment of the sweep `to`, the value at the nearest gate of
+// `there`, a moment of the sweep `from`. Gates without echo, and gates that have no nearest gate,
+// get `none`.
 template <class Value>
 std::vector<Value> taken_values(const GateField& field, const level2::Sweep& to,
                                 const level2::SweepMoment& there, const level2::Sweep& from,

@@ -19,21 +19,23 @@ using level2::Moment;
 constexpr GateBox one_gate{1, 1};
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
-// The gates of another field that have the ranges of the gates here, times a factor.
+// Finds the gates of another field ("there") that correspond to the gates of this field ("here").
+// Ranges there are the ranges here times a factor.
 class GatesElsewhere {
   public:
     GatesElsewhere(const GateField& here, const GateField& there, double stretch)
         : gates_(here.gates) {
         for (std::size_t gate = 0; gate < gates_.size(); ++gate)
             gates_[gate] = there.gate_at(here.range_m(gate) * stretch);
-        // The gates that have a place there follow each other.
+        // The gates that have a gate there are consecutive.
         const auto has_place = [](std::int32_t gate) { return gate >= 0; };
         const auto first = std::ranges::find_if(gates_, has_place);
         begin_ = static_cast<std::uint32_t>(first - gates_.begin());
         end_ = static_cast<std::uint32_t>(std::find_if_not(first, gates_.end(), has_place) -
                                           gates_.begin());
     }
-    // Writes the numbers there of the gates here that have a place, and returns which these are.
+    // Returns the gates of `here` that have a gate there, and writes the numbers of the gates
+    // there.
     std::span<const std::uint32_t> take(std::span<const std::uint32_t> here,
                                         const std::uint32_t* there, std::uint32_t* numbers) const {
         const auto from = std::ranges::lower_bound(here, begin_);
@@ -48,10 +50,11 @@ class GatesElsewhere {
     std::uint32_t begin_ = 0, end_ = 0;
 };
 
-// The place of each gate in another field with other radials.
+// Finds, for each gate, the gate at the same place in another field ("there") that has other
+// radials.
 class Elsewhere {
   public:
-    // `radials` are the numbers there, or -1 for none.
+    // `radials` has, for each radial here, the number of its radial there, or -1 for none.
     Elsewhere(const std::vector<std::int32_t>& radials, std::size_t radials_there,
               GatesElsewhere gates)
         : radials_here_(radials_there + 1), gates_(std::move(gates)) {
@@ -62,11 +65,11 @@ class Elsewhere {
         }
     }
 
-    // Returns the radials here whose place is a radial there.
+    // Returns the radials here that correspond to a radial there.
     [[nodiscard]] std::span<const std::uint32_t> radials_of(std::size_t there) const {
         return radials_here_[there];
     }
-    // Returns the radials here that have no place there.
+    // Returns the radials here that have no radial there.
     [[nodiscard]] std::span<const std::uint32_t> radials_without() const {
         return radials_here_.back();
     }
@@ -77,7 +80,7 @@ class Elsewhere {
     GatesElsewhere gates_;
 };
 
-// The ways from a sum to a feature.
+// These functions say how a sum becomes a feature.
 SumFeature mean(const GateField& field) {
     return {SumFeature::Kind::mean, field.scale, field.offset};
 }
@@ -121,7 +124,7 @@ class FeatureMaker {
         BoxSums across = BoxSums::of_differences(field_, box, Direction::azimuth);
         BoxSums about = BoxSums::of_codes(field_, wide);
         const std::vector<float> heights = heights_m();
-        // All features of a radial come together, because its numbers are then near the processor.
+        // Visit all features of a radial together, while its numbers are in the processor's cache.
         for (std::size_t radial = 0; radial < field_.radials; ++radial) {
             visit_own(Feature::reflectivity, radial, codes.next(), mean(field_));
             visit_height(radial, heights);
@@ -163,7 +166,7 @@ class FeatureMaker {
     void visit_values(Feature feature, std::size_t radial) {
         visit_(feature, radial, std::span(values_).first(echo_.of(radial).size()));
     }
-    // Calls the visitor with what `value` gives for each gate with echo of a radial.
+    // Calls the visitor with the results of `value` for the gates with echo of a radial.
     template <class Value>
     void visit_radial(Feature feature, std::size_t radial, Value value) {
         const auto gates = echo_.of(radial);
@@ -226,7 +229,7 @@ class FeatureMaker {
         read_gate_field(sweep, *moment, other_);
         return !other_.is_empty();
     }
-    // Visits a radial whose sums are those of other gates.
+    // Visits a radial whose feature comes from the sums of another field.
     void visit_sums(Feature feature, std::size_t radial, const GatesElsewhere& gates,
                     const std::uint32_t* sums, const SumFeature& how) {
         const auto here = echo_.of(radial);
@@ -244,7 +247,7 @@ class FeatureMaker {
         BoxSums sums;
         SumFeature how;
     };
-    // Visits the radials of other_, another sweep.
+    // Visits all radials with features from the sums of other_, a field of another sweep.
     void visit_there(const Elsewhere& place, std::span<SumsThere> all) {
         for (std::size_t there = 0; there < other_.radials; ++there)
             for (SumsThere& one : all) {
@@ -261,7 +264,7 @@ class FeatureMaker {
         if (!above) return visit_missing(Feature::reflectivity_above);
         const level2::Sweep& sweep = volume_.sweeps[*above];
         if (!read_other(sweep, Moment::ref)) return visit_missing(Feature::reflectivity_above);
-        // The same place on the ground is at a longer range there.
+        // In the sweep above, the same place on the ground is at a longer range.
         constexpr double radian = std::numbers::pi / 180;
         const double stretch = std::cos(sweep_.mean_elevation_deg() * radian) /
                                std::cos(sweep.mean_elevation_deg() * radian);
@@ -308,7 +311,7 @@ class FeatureMaker {
     std::size_t sweep_number_;
     const GateField& field_;
     const EchoGates& echo_;
-    GateField& other_;  // another moment, of this sweep or another one
+    GateField& other_;  // another moment, of this sweep or another sweep
     const FeatureVisitor& visit_;
     // These hold the gates with echo of one radial.
     std::vector<float> values_;
@@ -347,7 +350,8 @@ void EchoGates::take(const GateField& field, IsTaken is_taken) {
     for (std::size_t radial = 0; radial < field.radials; ++radial) {
         const std::size_t end = field.ends[radial];
         std::size_t count = begins_[radial];
-        // Branches on echo are hard to predict, so write each gate and count those that are taken.
+        // Branches on echo are hard to predict, so write every gate, but count only the gates that
+        // are taken.
         for (std::size_t gate = 0; gate < end; ++gate) {
             gates_[count] = static_cast<std::uint32_t>(gate);
             count += is_taken(radial * field.gates + gate) ? 1 : 0;

@@ -38,7 +38,7 @@ inline constexpr auto feature_count = static_cast<std::size_t>(Feature::phase_te
 
 [[nodiscard]] std::string_view feature_name(Feature feature);
 
-// The gates of a field that have echo, or some of these.
+// The gates of a field that have echo, or some of these gates.
 class EchoGates {
   public:
     explicit EchoGates(const GateField& field);
@@ -61,22 +61,22 @@ class EchoGates {
     std::vector<std::size_t> begins_;
 };
 
-// Gets the values of a feature at the gates with echo of a radial; NaN where the value is missing.
-// Each radial comes once, in any order.
+// Is called with the values of a feature at the gates with echo of a radial; NaN where the value is
+// missing. It is called once for each radial, in any order.
 using FeatureVisitor =
     std::function<void(Feature feature, std::size_t radial, std::span<const float> values)>;
 
-// Visits the features of a rule, those of a gate in their order. `field` is a reflectivity moment
-// of the sweep, and `echo` has its gates. Doppler features come from the sweep itself or from the
-// sweep of nearest elevation, at most 0.3 degrees away; they are missing if there is none. Other
-// moments are read into `scratch`, whose memory serves all sweeps.
+// Visits the features of a rule; for each gate, the features come in their order. `field` is a
+// reflectivity moment of the sweep, and `echo` has its gates. Doppler features come from the sweep
+// itself or from the sweep of nearest elevation, at most 0.3 degrees away; they are missing if
+// there is no such sweep. Other moments are read into `scratch`, whose memory serves all sweeps.
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                     const EchoGates& echo, QualityRule rule, GateField& scratch,
                     const FeatureVisitor& visit);
 
-// Visits the features that name what is not weather (stormcellar/retrieve/echo_kinds.h) in the same
-// way: reflectivity, height, range_texture, echo_share, reflectivity_above and the Doppler
-// features, and for the dual rule correlation and phase_texture.
+// Visits, in the same way, the features by which echo that is not weather is named
+// (stormcellar/retrieve/echo_kinds.h): reflectivity, height, range_texture, echo_share,
+// reflectivity_above and the Doppler features, and for the dual rule correlation and phase_texture.
 void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                          const EchoGates& echo, QualityRule rule, GateField& scratch,
                          const FeatureVisitor& visit);

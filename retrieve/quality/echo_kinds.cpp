@@ -1,4 +1,4 @@
-// Names what is not weather, from features of the gates, spokes and the extent of the echo.
+// Names echo that is not weather, from features of the gates, spokes and the extent of the echo.
 #include "stormcellar/retrieve/echo_kinds.h"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ EchoKind kind_of(const GateFacts& gate, const SweepFacts& sweep) {
     return EchoKind::other;
 }
 
-// Counts gates and those with echo in a layer about the radar.
+// Counts the gates, and the gates with echo, in a layer about the radar.
 struct LayerCount {
     double bottom_m = 0, top_m = 0;
     std::int64_t gates = 0, echo = 0;
@@ -158,7 +158,7 @@ class KindNamer {
     }
 
     std::vector<SweepKinds> name() {
-        // First name the sweeps that the others copy.
+        // Begin with the sweeps whose results other sweeps copy.
         for (const SweepQuality& quality : qualities_)
             if (!source_of(quality)) named_.push_back(named(quality));
         const std::size_t count = named_.size();

@@ -20,7 +20,7 @@ bool ends_meet(const level2::Sweep& sweep) {
     return gap * static_cast<double>(radials) <= 2 * 360;
 }
 
-// Returns the number of codes up to the last one that is not 0.
+// Returns the number of codes up to the last code that is not 0.
 std::size_t end_of_values(const std::uint16_t* codes, std::size_t gates) {
     // Skips empty blocks first, because compilers vectorize this loop.
     constexpr std::size_t block = 64;
@@ -105,7 +105,7 @@ BoxSums BoxSums::of_codes(const GateField& field, const GateBox& box) {
 
 BoxSums BoxSums::of_differences(const GateField& field, const GateBox& box, Direction direction,
                                 float turn) {
-    // Without a circle, the way round is never the shorter one.
+    // If the values are not on a circle, the difference must never go around it.
     const int way_round = turn > 0 ? static_cast<int>(std::lround(turn * field.scale)) : 1 << 20;
     const auto most = static_cast<int>(
         std::sqrt(static_cast<double>(BoxSum::most_sum / static_cast<std::uint32_t>(box.size()))));
@@ -143,7 +143,7 @@ void BoxSums::take(int place) {
     const auto oldest = static_cast<std::size_t>((place + slots + 1) % slots);
     std::uint32_t* row = rows_.data() + slot * field_->gates;
     const std::size_t end = sum_radial(place, row);
-    // A row is 0 from its end on, so that it can be added as far as a longer one.
+    // Fill the rest of the row with 0, so that it can be added as far as a longer row.
     if (end < ends_[slot]) std::fill(row + end, row + ends_[slot], 0U);
     ends_[slot] = end;
     exchange_rows(row, rows_.data() + oldest * field_->gates, std::max(end, ends_[oldest]),

@@ -5,8 +5,8 @@
 //
 // Units     Those of the moment; meters.
 // Accuracy  tests/retrieve/gate_field_test.cpp compares with sums over each box: exact up to the
-//           rounding of floats, unless a difference exceeds 194 codes / sqrt(gates of the box /
-//           27), which counts as that many.
+//           rounding of floats, except that a difference of more than 194 codes / sqrt(gates of the
+//           box / 27) counts as this limit.
 // Threads   Plain data and pure functions.
 #pragma once
 
@@ -27,7 +27,7 @@ struct GateField {
     float scale = 1, offset = 0;       // value = (code - offset) / scale
     bool is_circle = false;            // the last radial is next to the first
     std::vector<std::uint16_t> codes;  // radials x gates; 0 where there is no value
-    std::vector<std::size_t> ends;     // per radial, the gates up to the last one with a value
+    std::vector<std::size_t> ends;     // per radial, the gates up to the last gate with a value
 
     [[nodiscard]] bool is_empty() const { return codes.empty(); }
     [[nodiscard]] const std::uint16_t* row(std::size_t radial) const {
@@ -48,7 +48,7 @@ struct GateField {
 
 // Returns the valid codes of a moment of the sweep. Empty if the moment has no gates.
 [[nodiscard]] GateField gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment);
-// Reads them into a field whose memory is used again.
+// Does the same as gate_field(), but uses the memory of a field again.
 void read_gate_field(const level2::Sweep& sweep, const level2::SweepMoment& moment,
                      GateField& field);
 
@@ -59,7 +59,7 @@ struct GateBox {
     int gates = 7;
     [[nodiscard]] int size() const { return radials * gates; }
 };
-// Returns a box of so many radials and of about so many meters, at least three gates.
+// Returns a box of this many radials and of about this length, but of at least three gates.
 [[nodiscard]] GateBox gate_box(int radials, double length_m, const GateField& field);
 
 // The sum and the count of the numbers in a box.
@@ -95,13 +95,13 @@ class BoxSums {
     [[nodiscard]] static BoxSums of_differences(const GateField& field, const GateBox& box,
                                                 Direction direction, float turn = 0);
 
-    // Returns the sums about the gates of the first radial, then of the second, and so on, from
-    // which BoxSum is made. They are valid until the next call.
+    // Returns the sums about the gates of the first radial, then of the second, and so on. A BoxSum
+    // is made from each sum. The sums are valid until the next call.
     const std::uint32_t* next();
 
   private:
-    // Writes the numbers of a radial (gate_loops.h), 0 where there is none. Returns how many it
-    // wrote; the rest of the radial has no numbers.
+    // Writes the numbers of a radial (gate_loops.h), 0 where there is none. Returns how many
+    // numbers it wrote; the rest of the radial has no numbers.
     using FillRow = std::function<std::size_t(std::size_t radial, std::uint32_t* numbers)>;
     BoxSums(const GateField& field, const GateBox& box, FillRow fill);
     void take(int place);

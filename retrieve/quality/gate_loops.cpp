@@ -61,7 +61,8 @@ void number_differences(const std::uint16_t* HWY_RESTRICT codes,
 
 void sum_windows(std::uint32_t* HWY_RESTRICT numbers, std::size_t gates, unsigned window,
                  std::uint32_t* HWY_RESTRICT sums) {
-    // Doubles the length of the sums as often as possible, and adds those that make up the window.
+    // Doubles the length of the sums as often as possible, and adds the sums that make up the
+    // window.
     std::size_t length = 1, begin = 0, count = gates + window - 1;
     for (unsigned left = window;; left >>= 1U) {
         if ((left & 1U) != 0) {
@@ -89,7 +90,7 @@ void exchange_rows(const std::uint32_t* HWY_RESTRICT row, const std::uint32_t* H
         sums[gate] += row[gate] - old[gate];
 }
 
-// Loads as many lanes as there are, and zeros for the others.
+// Loads as many lanes as there are, and zeros for the other lanes.
 template <class D>
 HWY_INLINE hn::Vec<D> load_some(D d, const hn::TFromD<D>* from, std::size_t count) {
     if (count >= hn::Lanes(d)) return hn::LoadU(d, from);
@@ -123,7 +124,7 @@ void features_of_sums(const std::uint32_t* HWY_RESTRICT sums, std::size_t number
         const auto count = hn::ConvertTo(f, hn::BitCast(s, hn::ShiftRight<BoxSum::sum_bits>(bits)));
         auto value = hn::Div(count, all);
         if (feature.kind != Kind::share) {
-            // Divides by 1 where there is nothing, because 0 / 0 would raise a floating-point trap.
+            // Divides a sum of nothing by 1, because 0 / 0 would raise a floating-point trap.
             const auto is_none = hn::RebindMask(f, hn::Eq(bits, hn::Zero(u)));
             const auto sum = hn::ConvertTo(f, hn::BitCast(s, hn::And(bits, sum_mask)));
             const auto mean = hn::Div(sum, hn::IfThenElse(is_none, one, count));

@@ -10,25 +10,27 @@
 
 namespace stormcellar::retrieve {
 
-// Copies the codes from `first_valid` on, and writes 0 for others.
+// Copies the codes from `first_valid` on, and writes 0 for lower codes.
 void keep_valid_codes(const std::uint8_t* codes, std::size_t gates, std::uint16_t first_valid,
                       std::uint16_t* valid);
 void keep_valid_codes(const std::uint16_t* codes, std::size_t gates, std::uint16_t first_valid,
                       std::uint16_t* valid);
 
-// Numbers and sums are those of BoxSum (gate_field.h): a count above `sum_bits` bits, then a sum.
+// Numbers and sums have the form of BoxSum (gate_field.h): the lower `sum_bits` bits are a sum, and
+// the bits above are a count.
 
-// Writes the number of each code: one, and the code, but at most `most`. Code 0 has no number.
+// Writes the number of each code: a count of 1, and as the sum the code, but at most `most`. Code 0
+// has no number.
 void number_codes(const std::uint16_t* codes, std::size_t gates, std::uint32_t most,
                   std::uint32_t* numbers);
 
-// Differences of codes around a circle of `turn` codes, of which a difference above `most` counts
-// as `most`.
+// Differences of codes around a circle of `turn` codes. A difference above `most` counts as `most`.
 struct CodeDifferences {
     std::int32_t turn = 0;
     std::int32_t most = 0;
 };
-// Writes one, and the squared difference of two codes; nothing if one of the codes is 0.
+// Writes a count of 1 and, as the sum, the squared difference of two codes; writes 0 if one of the
+// codes is 0.
 void number_differences(const std::uint16_t* codes, const std::uint16_t* others, std::size_t gates,
                         const CodeDifferences& differences, std::uint32_t* numbers);
 
@@ -55,7 +57,7 @@ struct SumFeature {
 void features_of_sums(const std::uint32_t* sums, std::size_t count, const SumFeature& feature,
                       float* values);
 
-// A table with equal steps between its first place and its last; a place more is for NaN.
+// A table with equal steps between its first place and its last; one more place is for NaN.
 struct StepTable {
     float first = 0, steps_per_unit = 0;
     std::int32_t last_step = 0;

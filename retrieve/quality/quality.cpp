@@ -26,7 +26,7 @@ class QualityMaker {
         : volume_(volume), only_single_(only_single) {}
 
     std::vector<SweepQuality> make() {
-        // First judge the sweeps that the others copy.
+        // Begin with the sweeps whose results other sweeps copy.
         for (std::size_t sweep = 0; sweep < volume_.sweeps.size(); ++sweep)
             if (!copied_from(sweep)) judge(sweep);
         const std::size_t judged_count = made_.size();
@@ -35,7 +35,7 @@ class QualityMaker {
         std::ranges::stable_sort(made_, {}, &SweepQuality::sweep);
         return std::move(made_);
     }
-    // Judges one sweep, and the sweep that it copies.
+    // Judges one sweep, and the sweep whose results it copies.
     std::vector<SweepQuality> make(std::size_t sweep) {
         const auto from = copied_from(sweep);
         judge(from.value_or(sweep));
@@ -97,7 +97,7 @@ class QualityMaker {
     RuleTables dual_{taught_rule(QualityRule::dual)};
     RuleTables single_{taught_rule(QualityRule::single)};
     std::vector<SweepQuality> made_;
-    // Each sweep reuses the memory of the one before.
+    // Each sweep reuses the memory of the sweep before.
     GateField field_, other_;
     std::vector<float> log_odds_;
 };

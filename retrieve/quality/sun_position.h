@@ -3,8 +3,8 @@
 // Source    The low-precision formulas of the Astronomical Almanac (page C5), and the refraction of
 //           Saemundsson (1986).
 // Accuracy  0.02 degrees from 1950 to 2050 (tests/retrieve/sun_position_test.cpp). Not covered: the
-//           bending of the beam near the ground, which differs from that of light by up to 0.1
-//           degrees and more under anomalous propagation.
+//           bending of the beam near the ground, which differs from the bending of light by up to
+//           0.1 degrees, and by more under anomalous propagation.
 // Units     Degrees; azimuths clockwise from north.
 // Threads   A pure function.
 #pragma once

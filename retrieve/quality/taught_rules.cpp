@@ -1,5 +1,5 @@
-// The rules that bench/teach_quality.cpp printed; it says which volumes taught them. Do not edit
-// the numbers.
+// The rules that bench/teach_quality.cpp printed. That file says which volumes taught the rules. Do
+// not edit the numbers.
 #include "retrieve/quality/additive_rule.h"
 
 namespace stormcellar::retrieve {

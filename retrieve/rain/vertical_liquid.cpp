@@ -24,7 +24,8 @@ double liquid_of_layer(double z, double thickness_m) {
     return z > 0 ? 3.44e-6 * std::pow(z, 4.0 / 7) * thickness_m : 0;
 }
 
-// Returns the height from which the lowest cell that was seen counts.
+// Returns the height at which the sum of liquid begins. From there to the lowest cell that was
+// seen, the value of this cell counts.
 double start_of_liquid_m(const LiquidColumn& column, std::size_t lowest) {
     const std::span<const double> levels_m = column.levels_m;
     if (column.radar_m)

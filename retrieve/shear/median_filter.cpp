@@ -19,8 +19,9 @@ inline void sort_pair(float& low, float& high) {
     high = b < a ? a : b;
 }
 
-// Returns the fifth smallest. Sorts three triples first; then only the largest of the least, the
-// middle of the middle and the least of the largest can be the median.
+// Returns the fifth smallest number. First sorts three triples. The result is then the median of
+// three numbers: the largest of the triples' least numbers, the median of their middle numbers, and
+// the least of their largest numbers.
 inline float median_of(Nine v) {
     for (std::size_t i = 0; i < 9; i += 3) {
         sort_pair(v[i + 1], v[i + 2]);
@@ -41,7 +42,8 @@ inline float median_of(Nine v) {
 }
 
 // Replaces missing velocities by numbers beyond all others, of alternate sign beginning with
-// `next`, so that the fifth smallest of nine is in the middle of the velocities that there are.
+// `next`, so that the fifth smallest of the nine numbers is in the middle of the present
+// velocities.
 inline Nine filled(Nine v, float next) {
     for (float& of : v) {
         const bool is_missing = !(of == of);
@@ -73,7 +75,8 @@ void copy_lanes(const float* row, std::ptrdiff_t gates, std::ptrdiff_t gate, Lan
     }
 }
 
-// Filters one row. `beside` are the rows before it, itself and after it; null beyond a gap.
+// Filters one row. `beside` are the row before it, the row itself and the row after it; null beyond
+// a gap.
 void filter_row(const std::array<const float*, 3>& beside, std::size_t gates, float* out) {
     for (std::size_t first = 0; first < gates; first += lanes) {
         const std::size_t count = std::min(lanes, gates - first);

@@ -13,7 +13,7 @@
 
 namespace stormcellar::retrieve {
 
-// Returns the filtered velocities, rows x gates; NaN where there is none.
+// Returns the filtered velocities, rows x gates; NaN where there is no velocity.
 [[nodiscard]] std::vector<float> median_filtered(const VelocityRows& rows);
 
 }  // namespace stormcellar::retrieve

@@ -1,8 +1,8 @@
 // retrieve/shear/plane_fit.h -- fits a plane to the velocities around each gate.
 //
 // The plane is V = a + b x + c y, where x is the number of gates from the middle along the range
-// and y the sine of the angle from the middle, clockwise. The sine makes a rotation like a solid
-// body a plane. All velocities have the same weight. b and c come from the filtered velocities.
+// and y the sine of the angle from the middle, clockwise. With the sine, the rotation of a solid
+// body is a plane. All velocities have the same weight. b and c come from the filtered velocities.
 // Their standard errors come from the distances of the velocities before the filter from the plane,
 // because filtered velocities are alike in adjacent gates and would look better than they are.
 //
@@ -23,8 +23,8 @@
 namespace stormcellar::retrieve {
 
 struct Kernel {
-    // The half width in meters holds within these angles: at least one and a half spacings of the
-    // radials, so that both neighbors are in, and at most 15 degrees.
+    // Half of the width across the radials. As an angle, it is at least one and a half spacings of
+    // the radials, so that both neighbors are in the kernel, and at most 15 degrees.
     double half_width_m = 1250;
     std::size_t half_gates = 1;
     float least_share = 0.5F;
@@ -38,8 +38,8 @@ struct PlaneSlope {
 
 class PlaneFit {
   public:
-    // `filtered` has the shape of the rows' velocities, and values where they have values.
-    // Both must outlive the object.
+    // `filtered` has the shape of the rows' velocities, and a value wherever the rows have a value.
+    // The rows and `filtered` must outlive the object.
     PlaneFit(const VelocityRows& rows, std::span<const float> filtered, const Kernel& kernel);
 
     // Fits the planes of all gates of a row. `slopes` has an entry for each gate.

@@ -13,7 +13,7 @@ struct PeakCell {
     float azimuthal_per_s;
 };
 
-// Returns true if no cell beside it has a larger shear.
+// Returns true if no neighboring cell has a larger shear.
 bool is_peak(const ShearLayer& layer, std::size_t azimuth, std::size_t arc) {
     const float own = layer.at(azimuth, arc).azimuthal_per_s;
     const std::size_t last_arc = std::min(arc + 1, ShearLayer::arcs - 1);

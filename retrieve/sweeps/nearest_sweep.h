@@ -18,14 +18,14 @@
 namespace stormcellar::retrieve {
 
 // Returns the sweep that has the moment: `sweep` itself, or else the sweep of nearest elevation, at
-// most 0.3 degrees away. Of sweeps within a tenth of a degree of each other, the one nearest in the
-// order of the volume counts. `elevation_deg` is the elevation of `sweep`.
+// most 0.3 degrees away. Of sweeps within a tenth of a degree of each other, the sweep nearest to
+// `sweep` in the order of the volume counts. `elevation_deg` is the elevation of `sweep`.
 [[nodiscard]] std::optional<std::size_t> companion_sweep(const level2::Volume& volume,
                                                          std::size_t sweep, double elevation_deg,
                                                          level2::Moment moment);
 
 // Returns the next sweep with reflectivity at least 0.3 degrees above. Of sweeps within 0.2 degrees
-// of each other, the one with most radials and the longest range counts.
+// of each other, the sweep with most radials and the longest range counts.
 [[nodiscard]] std::optional<std::size_t> sweep_above(const level2::Volume& volume,
                                                      std::size_t sweep);
 

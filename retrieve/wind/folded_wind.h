@@ -1,10 +1,10 @@
 // retrieve/wind/folded_wind.h -- estimates the wind above the radar by height from velocities that
 // may be folded.
 //
-// A gate of azimuth a and elevation e sees (u sin a + v cos a) cos e of a wind (u, v). Folded or
-// not, exp(i pi velocity / Nyquist) is the same, so for each layer and candidate wind the fit sums
-// cos(pi (seen - velocity) / Nyquist). The best path through the layers gives neighboring layers
-// similar winds.
+// A wind (u, v) has the component c = (u sin a + v cos a) cos e along a beam of azimuth a and
+// elevation e. Folding does not change exp(i pi velocity / Nyquist), so for each layer and
+// candidate wind the fit sums cos(pi (c - velocity) / Nyquist). The best path through the layers
+// gives neighboring layers similar winds.
 //
 // Units     m/s, meters above the antenna. u is toward the east, v toward the north.
 // Accuracy  Good enough to choose fold numbers, but no measurement of the wind.

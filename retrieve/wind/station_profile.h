@@ -1,5 +1,5 @@
-// retrieve/wind/station_profile.h -- the wind profile of one volume with its place and time, as a
-// table and a server tell it.
+// retrieve/wind/station_profile.h -- the wind profile of one volume with its place and time, in the
+// form of a table and of JSON.
 //
 // Units     As in wind_profile.h. The JSON has meters above sea level, m/s and degrees.
 // Errors    See station_profile().

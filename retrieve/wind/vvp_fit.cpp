@@ -69,8 +69,8 @@ bool invert(Matrix3 matrix, std::size_t size, double least, Matrix3& inverse) {
     return true;
 }
 
-// Solves the least-squares problem of the weighted gates. Returns none if they cannot tell u from
-// v.
+// Solves the least-squares problem of the weighted gates. Returns none if the gates cannot tell u
+// from v.
 template <class Weight>
 std::optional<Solution> solve(std::span<const VvpGate> gates, const std::vector<Weight>& weights) {
     Matrix3 normal{};
@@ -99,10 +99,11 @@ bool is_moving(const VvpGate& gate) {
     return std::abs(gate.velocity_mps) > least_moving_mps;
 }
 
-// Finds the wind with the least sum of absolute residuals, nearly, by weighting each gate with the
-// inverse of its residual. A sixth of gates that have nothing to do with the wind hardly move the
-// result, even if they are all in one direction. Gates that stand still have no weight here,
-// because clutter may be most of a layer; reject() lets them in where the wind is across the beam.
+// Finds the wind whose sum of absolute residuals is nearly the smallest, by weighting each gate
+// with the inverse of its residual. If a sixth of the gates do not move with the wind, the result
+// hardly changes, even if they are all in one direction. Gates that do not move have no weight
+// here, because clutter may be most of a layer. Where the wind is across the beam, reject() accepts
+// such gates.
 std::optional<Solution> solve_by_sizes(std::span<const VvpGate> gates) {
     std::vector<float> weights;
     weights.reserve(gates.size());
@@ -158,7 +159,7 @@ double largest_gap_deg(std::span<const VvpGate> gates, const std::vector<std::ui
 }
 
 // Computes rms and standard errors. The residuals within a sector add up before they are squared,
-// so that errors which its gates share count in full.
+// so that errors that the gates of the sector share count in full.
 void add_errors(std::span<const VvpGate> gates, const Solution& solution, VvpFit& fit) {
     std::array<Vector3, VvpGate::sectors> sums{};
     double squares = 0;

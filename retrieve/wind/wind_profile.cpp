@@ -89,7 +89,8 @@ void add_gates(const level2::Volume& volume, const VelocitySheet& sheet, const S
     }
 }
 
-// Returns the median of the values of the gates in use, or none if less than half of them have one.
+// Returns the median of the values of the gates in use, or none if less than half of these gates
+// have a value.
 std::optional<float> median(const std::vector<float>& values,
                             const std::vector<std::uint8_t>& was_used) {
     std::vector<float> of_used;
