@@ -43,8 +43,8 @@ std::optional<int> port_of(std::string_view text) {
     return port;
 }
 
-// A text such as "example.org:80" or "[::1]:80", split. The port is behind the last colon, or
-// behind the bracket.
+// The host and the port of a text such as "example.org:80" or "[::1]:80". The port is after the
+// last colon, or after the bracket.
 struct HostAndPort {
     std::string_view host;  // without brackets
     std::optional<std::string_view> port;
@@ -75,7 +75,7 @@ bool is_path_prefix(std::string_view prefix) {
     });
 }
 
-// Returns true for the name of an S3 bucket: 3 to 63 small letters, digits, "-" and ".".
+// Returns true for the name of an S3 bucket: 3 to 63 lower-case letters, digits, "-" and ".".
 bool is_bucket_name(std::string_view name) {
     return name.size() >= 3 && name.size() <= 63 && is_letter_or_digit(name.front()) &&
            is_letter_or_digit(name.back()) && name.find("..") == name.npos &&

@@ -1,5 +1,6 @@
-// web/config/web_config.h -- the tables [web] of stormcellard.toml: what the data server serves, to
-// whom, and how much at most. daemon/stormcellard.toml explains every key and holds every default.
+// web/config/web_config.h -- the tables [web] of stormcellard.toml: what the data server serves,
+// whom it answers, and how much it may take. daemon/stormcellard.toml explains every key and holds
+// every default.
 //
 // This is a separate library (stormcellar::web_config), so that stormcellard can check the tables
 // without linking the server.
@@ -77,7 +78,7 @@ struct ConfiguredCollection {
     // A directory of Level III files with names such as Level3_FTG_N0Q_20150615_1201.nids. If
     // empty, the data set is described, but has no files.
     std::filesystem::path files;
-    std::vector<std::string> stations;  // stations to list; empty: all that have files
+    std::vector<std::string> stations;  // stations to list; empty: all stations that have files
     bool operator==(const ConfiguredCollection&) const = default;
 };
 
@@ -106,13 +107,13 @@ struct WebLimits {
     std::uint64_t least_bytes_per_second = 1'000;  // a slower client is cut off
     int workers = 0;                               // 0: two for each processor
     int renders = 1;                               // pictures and grids computed at the same time
-    // Requests that wait for a render; others get 503.
+    // Number of requests that may wait for a render; further requests get 503.
     int waiting = 32;
     int results = 10'000;                    // rows of one query
     std::uint64_t kept_bytes = 256'000'000;  // packed grids and lists kept in memory
     std::uint64_t kept_picture_bytes = 64'000'000;
     int open_grids = 64;
-    std::uint64_t answer_bytes = 256'000'000;  // of all answers on their way, in memory
+    std::uint64_t answer_bytes = 256'000'000;  // memory of all answers that are being sent
     bool operator==(const WebLimits&) const = default;
 };
 

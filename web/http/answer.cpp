@@ -77,7 +77,7 @@ unsigned status_of(const Error& error) {
 }
 
 // Replaces paths in a message. A path begins with a slash at the start of a word. Names of files
-// may hold blanks, so it ends only where the message goes on.
+// may hold blanks, so a path ends only at ": " or with the message.
 std::string without_paths(std::string_view message) {
     std::string out;
     while (!message.empty()) {

@@ -224,9 +224,9 @@ ConnectionWatch::Open* ConnectionWatch::longest_without_request() {
     return is_new ? nullptr : oldest;
 }
 
-// Returns the body that must be cut first. Bodies below `times_least_rate` come before others, then
-// bodies of clients with more connections, then slower bodies. A proxy stands for many clients, so
-// it counts as if it had one connection.
+// Returns the body that must be cut first. Bodies below `times_least_rate` come before other
+// bodies, then bodies of clients with more connections, then slower bodies. A proxy stands for many
+// clients, so it counts as if it had one connection.
 ConnectionWatch::Open* ConnectionWatch::slowest_body(SteadyTime now) {
     const auto least_rate = static_cast<double>(times_least_rate * limits_.least_bytes_per_s);
     Open* slowest = nullptr;

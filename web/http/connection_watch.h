@@ -4,7 +4,7 @@
 // would hold a connection forever. This watch limits the total time in which a request must arrive,
 // and the rate and total time of a body. It ends a connection by shutdown(2), and libmicrohttpd
 // then closes it. libmicrohttpd does not look at a connection whose stream has nothing to send. The
-// watch does, and ends the stream if the client is gone.
+// watch looks at such a connection, and ends the stream if the client is gone.
 //
 // Threads   Many threads may use it. Its own thread looks twice a second.
 #pragma once

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_ranges = 16;
 
 // Calls `take` with each item of a list with commas. Tags of this server contain no commas, but
-// tags of others may.
+// tags of other servers may.
 template <class Take>
 void each_item(std::string_view list, Take take) {
     while (!list.empty()) {

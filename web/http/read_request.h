@@ -40,7 +40,7 @@ struct Identity {
 // any port.
 [[nodiscard]] bool names_us(std::string_view host, const Identity& identity);
 
-// A decoded request, and the answer that refuses it; none: it may be answered.
+// A decoded request, and the answer that refuses it; none: the request may be answered.
 struct Reading {
     Request request;
     std::optional<Refusal> refusal;

@@ -6,7 +6,7 @@
 // served on loopback (DNS rebinding).
 //
 // Threads   Many threads may use it. Doors are called from many threads.
-// Errors    busy if an address is in use; bad_argument if it is not an address; io.
+// Errors    busy if an address is in use; bad_argument for a text that is not an address; io.
 #pragma once
 
 #include <cstddef>

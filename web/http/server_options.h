@@ -44,7 +44,7 @@ struct ServerLimits {
     // 503.
     std::uint64_t answer_bytes = 256'000'000;
     unsigned workers = 4;           // threads that make answers
-    std::size_t most_waiting = 64;  // requests that wait for a worker; others get 503
+    std::size_t most_waiting = 64;  // requests that may wait for a worker; further requests get 503
 };
 
 // Facts about one answer, for the log and the metrics.

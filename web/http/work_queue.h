@@ -37,8 +37,8 @@ class WorkQueue {
     enum class Turn { came, stopping, lost };
     using Work = std::function<void(Turn turn)>;
     // Adds work. Returns false if the queue stops, or if too much work waits and this work can take
-    // no other's place. If it takes a place, the caller's thread runs the work that loses it with
-    // `lost`.
+    // no other's place. If it takes a place, the caller's thread runs the work that has lost the
+    // place, with Turn::lost.
     [[nodiscard]] bool add(const std::string& client, Work work);
     void stop();
     [[nodiscard]] std::size_t waiting() const;

@@ -1,6 +1,6 @@
 // web/service/measures.h -- the counters and gauges of one server, for /metrics.
 //
-// Threads   All measures are added before the server starts; after that, many threads may use it.
+// Threads   All measures are added before the server starts; after that, many threads may use them.
 #pragma once
 
 #include <atomic>

@@ -34,7 +34,7 @@ namespace {
 // seconds. So both have their own workers.
 constexpr std::size_t maps_for_a_frame = 8;
 
-// Draws the pictures of the data server, with one memory for all.
+// Draws the pictures of the data server, with one memory for all pictures.
 struct Pictures {
     FramePicturesOptions options;
     std::shared_ptr<RainTotals> rain;

@@ -67,7 +67,7 @@ class TroubleLog {
 };
 
 // Returns true if a held socket has the port of a wanted address that has no socket. For example, a
-// socket at 127.0.0.1:80 prevents one at 0.0.0.0:80.
+// socket at 127.0.0.1:80 prevents a socket at 0.0.0.0:80.
 bool holds_a_port_of(const std::vector<ListenAddress>& wanted, const ListenSockets& held) {
     return std::ranges::any_of(held, [&](const ListenSocket& socket) {
         return std::ranges::any_of(wanted, [&](const ListenAddress& where) {

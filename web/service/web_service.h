@@ -27,8 +27,8 @@ class WebService {
     [[nodiscard]] const WebSetup& setup() const { return sources_.setup; }
     // Returns false as long as there is no catalog. look_again() opens the catalog once it exists.
     [[nodiscard]] bool has_catalog() const { return sources_.catalog != nullptr; }
-    // Returns false if the server could not be opened again after a reload. look_again() tries it
-    // again.
+    // Returns false if the server could not be opened again after a reload. look_again() tries
+    // again to open the server.
     [[nodiscard]] bool is_listening() const { return server_ != nullptr; }
     // Returns false if the server is not open. Otherwise waits for an answer of the server and
     // returns true. If the server is stuck, this deliberately never returns, so that the watchdog
@@ -39,8 +39,9 @@ class WebService {
 
     // Applies a configuration, except the parts that needs_restart() names. A new server begins on
     // the same sockets, which stay open; then the old server ends, with its connections. If the new
-    // server cannot begin, the old one goes on unchanged; if its port was in the way, it begins
-    // again. Errors: those of open().
+    // server cannot begin, the old server goes on unchanged. If the old server's port is in the
+    // way, the old server ends first, and begins again if the new server fails. Errors: those of
+    // open().
     Status reload(WebSetup fresh);
     [[nodiscard]] ServerFacts facts() const;
 

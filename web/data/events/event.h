@@ -53,7 +53,7 @@ inline constexpr auto event_types = std::to_array<EventTypeFacts>({
 struct Event {
     EventType type = EventType::reset;
     std::string station;  // ICAO; empty: not about a single station
-    std::string domain;   // of the grid; if the event is of a station, its own domain
+    std::string domain;   // of the grid; for an event of a station, the station's own
     std::optional<level2::Moment> moment;
     std::string json;  // one object on one line
 };

@@ -24,7 +24,7 @@ constexpr std::chrono::seconds grids_speak_for{30};
 // Least time between two queries of one station's database.
 constexpr std::chrono::seconds ask_every{5};
 // Number of queries for each change. SQLite writes the log, waits for the disk, and then publishes
-// the commit, so the file changes before readers see the commit. The second query sees it.
+// the commit, so the file changes before readers see the commit. The second query sees the commit.
 constexpr int asks_for_a_change = 2;
 // If more changes than this wait, drop them all and let clients request everything again.
 constexpr std::size_t most_changes_waiting = 20'000;

@@ -30,11 +30,11 @@ namespace stormcellar::web {
 struct EventFeedOptions {
     std::shared_ptr<Grids> grids;   // null: no cache
     std::filesystem::path catalog;  // empty: none
-    // The same catalog, if it is already open.
+    // A reader of this catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<EventHub> hub;
-    // Called with the domain after the events of a finished grid of reflectivity were published. It
-    // must be quick.
+    // Called with the domain after the events of a finished grid of reflectivity were published.
+    // The function must be quick.
     std::function<void(const std::string&)> on_reflectivity = nullptr;
     std::chrono::seconds silent_after{1200};
     std::chrono::milliseconds look_every{2000};  // time between two looks at the catalog

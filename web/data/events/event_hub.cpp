@@ -202,7 +202,7 @@ std::string EventHub::Listener::read(std::size_t most) {
     std::string bytes = unsent_.substr(0, most);
     unsent_.erase(0, bytes.size());
     // If no bytes were returned, nothing is pending. Otherwise a frame may have been cut, or events
-    // may be left; if not, the next call clears the flag.
+    // may be left; if neither is true, the next call clears the flag.
     if (bytes.empty()) is_pending_ = false;
     // Release the buffer. Otherwise each of a thousand idle listeners would keep room for the
     // longest event that it has read.

@@ -5,10 +5,10 @@
 // A listener keeps only the number of the next event that it has not read, so a slow listener takes
 // no memory. If that event has left the ring, the listener gets a reset instead. The hub has an
 // index of listeners by station and domain. So an event touches only listeners that asked for its
-// station or domain, or for all.
+// station or domain, or for all events.
 //
 // Threads   Many threads may use the hub and listeners; one thread at a time reads a listener. The
-//           hub calls a listener's `wake` without holding a lock, and then not again until the
+//           hub calls a listener's `wake` without holding a lock, and calls it again only after the
 //           listener has been read to the end.
 #pragma once
 
@@ -81,7 +81,7 @@ class EventHub : public std::enable_shared_from_this<EventHub> {
     std::deque<Numbered> ring_ STORMCELLAR_GUARDED_BY(mutex_);
     std::uint64_t next_ STORMCELLAR_GUARDED_BY(mutex_) = 1;
     std::unordered_map<std::string, Group> groups_ STORMCELLAR_GUARDED_BY(mutex_);
-    // The listeners of each tick, which get a heartbeat then.
+    // The listeners that get a heartbeat, by tick.
     std::vector<std::vector<Listener*>> beats_ STORMCELLAR_GUARDED_BY(mutex_);
     std::size_t next_beat_ STORMCELLAR_GUARDED_BY(mutex_) = 0;
     std::size_t next_place_ STORMCELLAR_GUARDED_BY(mutex_) = 0;

@@ -8,8 +8,8 @@
 // give no events. If such files appear, as when a disk is mounted, a reset follows.
 //
 // Threads   One thread at a time.
-// Errors    None are returned. A grid that cannot be read is counted. It is reported when it
-//           changes the next time, if it can be read then.
+// Errors    None are returned. A grid that cannot be read is counted. At its next change it is
+//           reported, if it can then be read.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class GridEvents {
     [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
   private:
-    // Identifies a file. A later file with the same name differs in a member.
+    // Identifies a file. A later file with the same name differs in at least one member.
     struct Told {
         UtcTime time;
         std::uint64_t inode = 0;

@@ -9,8 +9,8 @@ namespace stormcellar::web {
 namespace {
 
 // Two starts that differ by less than this are of one volume. Until the header of a volume comes,
-// the time of its first radial stands for its start, and the start in the header differs by up to
-// ten seconds.
+// its start is the time of its first radial. The start in the header differs from this time by up
+// to ten seconds.
 constexpr std::chrono::seconds same_volume_within{15};
 
 Event station_event(EventType type, const std::string& station, UtcTime now,

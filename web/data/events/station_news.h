@@ -25,7 +25,7 @@ struct SeenVolume {
     int vcp = 0;  // 0: not known
 };
 
-// The end of a volume of which there is no grid.
+// The end of a volume without a grid.
 struct EndedVolume {
     UtcTime start;
     int sweeps = 0;

@@ -49,10 +49,10 @@ class CacheWatch {
     CacheWatch& operator=(const CacheWatch&) = delete;
     ~CacheWatch();
 
-    // Reports all changes that inotify has noticed, which are each removal, and each rename into a
-    // watched directory, before the call. Takes only one system call if there are none.
+    // Reports all changes that inotify noticed before the call: removals, and renames into a
+    // watched directory. Without changes, this takes only one system call.
     void catch_up();
-    // Reads the directories whose times have changed, even if no event told so.
+    // Reads the directories whose times have changed, even if no event reported a change.
     void rescan();
     // Returns a sentence that says why some changes are reported late. Returns none if all are
     // reported at once.

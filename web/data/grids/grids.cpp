@@ -20,7 +20,7 @@
 
 namespace stormcellar::web {
 
-// Identifies a file. A later file with the same name differs in a member.
+// Identifies a file. A later file with the same name differs in at least one member.
 struct GridFileStamp {
     std::uint64_t device = 0, inode = 0, size = 0;
     std::int64_t modified_ns = 0;
@@ -267,7 +267,7 @@ Result<std::shared_ptr<const OpenGrid>> Grids::find(std::string_view domain, lev
     auto grid = std::make_shared<const OpenGrid>(
         OpenGrid{std::move(*file), name.domain, moment, time, std::move(id)});
     // If the file was replaced after the look, the stamp does not match the new file, and the next
-    // request opens that.
+    // request opens the new file.
     impl_->keep_open(name, stamp_of_grid(*facts), grid);
     return grid;
 }

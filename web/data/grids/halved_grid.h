@@ -1,14 +1,15 @@
 // web/data/grids/halved_grid.h -- makes grids with half the columns and rows, to show large areas.
 //
-// A cell of the halved grid stands for the four cells that it covers on its level (fewer at the
+// A cell of the halved grid is made from the four cells that it covers on its level (fewer at the
 // edge of a grid with an odd number of columns or rows). Levels are never halved, so heights stay
 // exact. Cells that are not seen do not count; if none of the four is seen, the new cell is not
-// seen. The cells that are seen become one by
+// seen. The seen cells become one by
 //   maximum  the largest value, if there is one (for VEL, which has a sign, the value farthest
 //            from 0); else range folded if one cell is, so that such air never looks clear;
 //            else no echo
-//   mean     range folded if most cells are; else no echo if those cells outnumber the values;
-//            else the mean of the values as they are stored (dBZ for REF)
+//   mean     range folded if more cells are range folded than have no echo, and more than have
+//            values; else no echo if more cells have no echo than values; else the mean of the
+//            values as they are stored (dBZ for REF)
 // A grid that is halved twice is made from the halved grid, so its `mean` is a mean of means.
 //
 // Threads   Pure functions.

@@ -60,7 +60,7 @@ struct PackedHeader {
     // have codes.
     std::uint32_t flags = 0;
     std::uint32_t first_brick = 0, end_brick = 0;      // the range whose states and codes follow
-    std::uint32_t first_states = 0, states_count = 0;  // number of blocks; numbered as in the table
+    std::uint32_t first_states = 0, states_count = 0;  // first block in the table; their number
     std::uint32_t first_codes = 0, codes_count = 0;
     std::uint32_t site_count = 0, table_count = 0;
     std::uint64_t levels_offset = 0;  // nz doubles; an offset of 0 means that the section is absent

@@ -39,7 +39,7 @@ struct PackedSweepHeader {
     float scale = 1, offset = 0;         // value = (code - offset) / scale
     std::uint64_t radials_offset = 0;
     std::uint64_t codes_offset = 0;
-    // Gates with a lesser probability of weather are left out; 0: none are.
+    // Gates with a lesser probability of weather are left out; 0: all gates are here.
     float least_probability = 0;
     float left_out_share = 0;  // of the sweep's gates with echo
 };

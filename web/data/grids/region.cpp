@@ -169,9 +169,9 @@ UtcTime middle_of(const OpenGrid& grid) {
     return description.start_time + (description.end_time - description.start_time) / 2;
 }
 
-// Returns a site's volumes around an instant, at most `greatest_gap` away: the last one whose
-// middle is not after the instant, and the next one. Volumes that do not fit are left out. The time
-// of a grid is the start of its volume, so the search begins earlier.
+// Returns a site's volumes around an instant, at most `greatest_gap` away: the last volume whose
+// middle is not after the instant, and the next volume. Volumes that do not fit are left out. The
+// time of a grid is the start of its volume, so the search begins earlier.
 Result<RegionSite> volumes_about(Grids& grids, const std::string& site, const RegionPlan& plan,
                                  UtcTime instant) {
     const auto gap = pipeline::FrameOptions{}.greatest_gap;

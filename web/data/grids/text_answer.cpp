@@ -20,7 +20,7 @@ Answer text_answer_to(const Request& request, std::string content_type, std::str
     entity.coding = coding_name(coding);
     entity.varies = true;
     entity.headers = std::move(headers);
-    // A client that has this text already needs no compressed one.
+    // A client that already has this text needs no compressed text.
     if (request.header("If-None-Match")) {
         if (Answer unchanged = answer_with(request, entity); unchanged.status == 304)
             return unchanged;

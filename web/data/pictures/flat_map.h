@@ -1,12 +1,12 @@
 // web/data/pictures/flat_map.h -- a 2D product of a grid, or a sweep, which is made once, with
 // coarser levels for small scales.
 //
-// Level 0 has a cell for each column of the grid, or of the plane of the sweep, whose columns are
-// as wide as a gate is long. Each further level has half as many columns and
-// rows, until neither is more than 32. A cell of a further level stands for the four cells that it
-// covers (fewer at an edge of odd length):
-//   state   a value if any of the four has one; else range folded if any is; else no echo if any
-//           was seen; else not seen. So small scales hide no echo.
+// Level 0 has a cell for each column of the grid. For a sweep, it has a cell for each column of the
+// sweep's plane, which is as wide as a gate is long. Each further level has half as many columns
+// and rows, until neither is more than 32. A cell of a further level is made from the four cells
+// that it covers (fewer at an edge of odd length):
+//   state   a value if any of the four has a value; else range folded if any of them is; else no
+//           echo if any of them was seen; else not seen. So small scales hide no echo.
 //   value   VEL: the value farthest from 0. ZDR, RHO, CFP: the mean. PHI, whose values are on a
 //           circle: the value of the first cell with one, from the southwest. Other moments, and
 //           products whose unit is not their moment's: the largest value.
@@ -41,7 +41,7 @@ struct FlatMap {
     grid::GridSpec spec;
     std::shared_ptr<const PlacedSweep> sweep;  // whose gates level 0 samples; null: of a grid
     std::vector<render::FlatField> levels;     // at least one
-    // FlatField::at_least of level 0. The levels have none, so that pictures of all scales look
+    // FlatField::at_least of level 0. It is empty in `levels`, so that pictures of all scales look
     // alike.
     std::vector<std::uint8_t> at_least;
     [[nodiscard]] std::uint64_t bytes() const;

@@ -23,7 +23,7 @@
 
 namespace stormcellar::web {
 
-// Limits; larger pictures would delay all others.
+// Limits; larger pictures would delay all other pictures.
 inline constexpr std::int64_t most_frame_pixels = 3840 * 2160;
 inline constexpr std::int64_t most_frame_samples = most_frame_pixels * 256;  // pixels times slices
 

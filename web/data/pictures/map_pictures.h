@@ -124,10 +124,10 @@ class MapPictures {
     RecentlyUsed<DomainSpec, render::EarthBox> boxes_ STORMCELLAR_GUARDED_BY(boxes_mutex_);
 };
 
-// Returns how often to halve a field for the pixels of this window. It is halved until the side of
-// a cell is at least 0.87 of a pixel's, so that almost no cell falls between pixels, or until there
-// is no coarser level. The result does not depend on the position of the window, so tiles fit
-// together.
+// Returns how often to halve a field for the pixels of this window. The field is halved until the
+// side of a cell is at least 0.87 of a pixel's side, so that almost no cell falls between pixels,
+// or until there is no coarser level. The result does not depend on the position of the window, so
+// tiles fit together.
 [[nodiscard]] int halvings_for(const render::PlaneWindow& window, const grid::GridSpec& spec,
                                std::size_t levels);
 

@@ -54,8 +54,8 @@ class SweepPictures {
     // Returns the picture. If it is not kept, draws it. Errors: not_found if the raw file is gone
     // or has no such sweep; those of decoding and drawing.
     [[nodiscard]] Result<Kept> find_or_draw(const SweepPicture& picture);
-    // Decodes the sweep of each panel. All are on the plane of the first. Errors: not_found if the
-    // raw file is gone or has no such sweep; those of decoding.
+    // Decodes the sweep of each panel. All sweeps are on the plane of the first. Errors: not_found
+    // if the raw file is gone or has no such sweep; those of decoding.
     [[nodiscard]] Result<std::vector<PlacedSweep>> decode(const SweepPicture& picture) const;
 
   private:

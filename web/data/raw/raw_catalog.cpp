@@ -26,7 +26,7 @@ using catalog::FileState;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kept_open_for{2}, floor_holds_for{30};
-// The time in the name of a dropped file may differ from the volume's start by this much. They
+// The time in the name of a dropped file may differ from the volume's start by this much. The two
 // differ by seconds, and some names have no seconds.
 constexpr std::chrono::minutes own_name_differs{2};
 // Number of rows that are read in addition to the wanted ones, because a file may have come several

@@ -68,8 +68,8 @@ struct RawVolume {
 // Returns the name of a volume. Its start must be known.
 [[nodiscard]] std::string name_of_entry(const catalog::CatalogEntry& entry);
 // Returns a name under which the volume is served: the name of its file if open() finds the volume
-// by that, else name_of_entry(). Returns none if the start is unknown, or if the file is gone or is
-// a member of an archive.
+// by this name, else name_of_entry(). Returns none if the start is unknown, or if the file is gone
+// or is a member of an archive.
 [[nodiscard]] std::optional<std::string> given_name(const catalog::CatalogEntry& entry);
 
 struct RawRange {
@@ -98,7 +98,7 @@ using OpenedOrMissing = tl::expected<OpenedVolume, RawFailure>;
 
 struct RawFilesOptions {
     std::filesystem::path catalog;
-    // The same catalog, if it is already open.
+    // A reader of this catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     // Gives the places of stations that no table has. If null, such stations have no place.
     std::shared_ptr<Grids> grids = nullptr;
@@ -122,7 +122,7 @@ class RawFiles {
     [[nodiscard]] virtual Result<std::vector<RawStation>> stations() = 0;
     // Returns the volumes, each name once. A station without volumes gives an empty list. Leaves
     // out volumes whose file is gone. May also lack files that came in the last 30 s and are older
-    // than all others.
+    // than all other files.
     [[nodiscard]] virtual Result<std::vector<RawVolume>> list(std::string_view station,
                                                               const RawRange& range) = 0;
     // Opens a volume. May have to compute the hash of a file.

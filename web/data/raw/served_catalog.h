@@ -19,7 +19,7 @@ class ServedCatalog {
   public:
     using Reader = std::shared_ptr<const catalog::CatalogReader>;
 
-    // `reader` is the same catalog, if it is already open.
+    // `reader` reads this catalog, if it is already open.
     explicit ServedCatalog(std::filesystem::path directory, Reader reader = nullptr)
         : directory_(std::move(directory)), reader_(std::move(reader)) {}
 

@@ -2,8 +2,8 @@
 // have been found.
 //
 // One thread searches the grids, so other events need not wait. If several grids of an area come
-// while it waits, only the newest is searched. An event tells of each grid once, and again if the
-// grid was made again.
+// while the area waits for its search, only the newest is searched. Each grid gives one event, and
+// one more if the grid is made again.
 //
 // Threads   Many threads may use it.
 // Errors    None are returned. A grid that cannot be read, and areas beyond `most_waiting`, give no

@@ -42,7 +42,7 @@ inline constexpr std::string_view geojson_type = "application/geo+json";
 struct ApiSources {
     std::shared_ptr<Grids> grids;   // null: no cache is served
     std::filesystem::path catalog;  // empty: no catalog is served
-    // The same catalog, if it is already open.
+    // A reader of this catalog, if it is already open.
     std::shared_ptr<const catalog::CatalogReader> reader = nullptr;
     std::shared_ptr<KeptAnswers> kept;
     std::shared_ptr<const EventFeed> feed = nullptr;       // null: no station counts as silent
@@ -59,13 +59,13 @@ class ApiState {
     // not_found if none is served; those of CatalogReader::open().
     [[nodiscard]] Result<ServedCatalog::Reader> catalog() { return catalog_.get(); }
 
-    // A halved grid. The state keeps the most recently used ones.
+    // A halved grid. The state keeps the most recently used halved grids.
     using Halved = std::shared_ptr<const grid::BrickGrid>;
     [[nodiscard]] Halved find_halved(const std::string& key);
     void keep_halved(const std::string& key, const Halved& halved);
 
-    // A decoded volume. The state keeps the last one, because clients request its sweeps one after
-    // another.
+    // A decoded volume. The state keeps the last volume, because clients request its sweeps one
+    // after another.
     using DecodedVolume = std::shared_ptr<const level2::Volume>;
     [[nodiscard]] DecodedVolume find_volume(const std::string& key);
     void keep_volume(const std::string& key, DecodedVolume volume);

@@ -25,8 +25,7 @@ struct BrickWindow {
 struct PackedRequest {
     PackedPart part = PackedPart::whole;
     std::size_t first = 0, end = 0;     // of `bricks`
-    std::optional<std::uint64_t> most;  // largest size of a whole grid, in bytes; a larger one is
-                                        // sent as its table
+    std::optional<std::uint64_t> most;  // in bytes; a larger whole grid is sent as its table
     bool values_alone = false;          // codes of values only, for a whole grid
     std::optional<BrickWindow> window;  // in bricks of the grid after halving
     int half = 0;
@@ -34,7 +33,7 @@ struct PackedRequest {
     std::optional<std::string> id;
     Coding coding = Coding::identity;
 
-    // Returns a text that differs from that of all other answers about the same grid, for a key.
+    // Returns a text for keys, which no other answer about the same grid has.
     [[nodiscard]] std::string text() const {
         const std::string cut = window
                                     ? fmt::format("-w{}-{}-{}-{}", window->first_x, window->last_x,

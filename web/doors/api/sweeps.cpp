@@ -101,9 +101,9 @@ Answered<ApiState::DecodedVolume> volume_of(const ApiCall& call, const FoundVolu
     return *decoded;
 }
 
-// Like volume_of(), but returns a volume with the wanted moment, without echo whose probability of
-// weather is less than `quality`. If all echo is kept and the moment comes from velocities, the
-// volume has only these, VELD and the wanted moment.
+// As volume_of(), but also derives the wanted moment, and removes echo whose probability of weather
+// is less than `quality`. If all echo is kept and the wanted moment comes from velocities, the
+// volume has only velocities, VELD and the wanted moment.
 Answered<ApiState::DecodedVolume> derived_volume_of(const ApiCall& call, const FoundVolume& found,
                                                     level2::Moment wanted, double quality) {
     const bool is_derived = level2::facts_of(wanted).is_derived;

@@ -3,14 +3,15 @@
 //
 //   /api/v1/events?station=&domain=&moment=&kind=&last_event_id=
 //
-// A client hears of the stations and domains that it names, or of all if it names none. If it names
-// moments and kinds, it hears only of these. A slow client takes at most one block of the server's
-// memory, and the kernel's buffer of its socket. If an event leaves the ring of the newest events
-// before the client has read it, the event is lost, and the client gets a reset.
+// A client hears of the stations and domains that it names, or of all stations and domains if it
+// names none. If it names moments and kinds, it hears only of these. A slow client takes at most
+// one block of the server's memory, and the kernel's buffer of its socket. If an event leaves the
+// ring of the newest events before the client has read it, the event is lost, and the client gets a
+// reset.
 //
 // Threads   Many threads may use it.
-// Errors    400 for a parameter that makes no sense, 404 for other paths below it, 503 if too many
-//           streams are open, in all or for one client.
+// Errors    400 for a parameter that makes no sense, 404 for other paths below /api/v1/events, 503
+//           if too many streams are open, in all or for one client.
 #pragma once
 
 #include <atomic>

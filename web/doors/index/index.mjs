@@ -15,7 +15,7 @@ async function asked(name) {
     return answer.json();
 }
 
-// A date tells older data better than an age.
+// For older data, a date says more than an age.
 const isOld = (seconds) => seconds >= 2 * day;
 
 // Returns "42 s", "3 min", "5 h 20 min", "12 days", "3 years".

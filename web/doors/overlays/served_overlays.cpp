@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-// Returns the files of an overlay. A file that is not there is one of them, and so is a directory
-// that cannot be listed, so that a client learns of it.
+// Returns the files of an overlay. A missing file and a directory that cannot be listed are also
+// returned, so that the answer tells clients about them.
 std::vector<fs::path> files_of(const ConfiguredOverlay& overlay) {
     std::error_code problem;
     if (!fs::is_directory(overlay.path, problem)) return {overlay.path};

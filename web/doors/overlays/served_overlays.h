@@ -9,8 +9,8 @@
 // An overlay has at most a quarter of a million points, from at most 256 files; further files are
 // left out.
 //
-// Each feature has a Point or a LineString, and of these properties those that are known: "stroke",
-// "stroke-width", "name", "begin" and "end". The collection's member "left_out" lists files that
+// Each feature has a Point or a LineString, and the properties "stroke", "stroke-width", "name",
+// "begin" and "end", as far as they are known. The collection's member "left_out" lists files that
 // cannot be read, with the reason; the other files are served all the same.
 //
 // Threads   Many threads may use it. One makes the text of an overlay, and others that want the

@@ -50,7 +50,7 @@ std::vector<level2::Moment> moments_of_panels(const FrameStyle& style) {
     return moments;
 }
 
-// Returns the time of the newest grid that the domain has of any of the moments.
+// Returns the time of the domain's newest grid of any of these moments.
 std::optional<UtcTime> newest_of_any(const Grids& grids, std::string_view domain,
                                      const std::vector<level2::Moment>& moments) {
     std::optional<UtcTime> newest;

@@ -6,7 +6,7 @@
 //
 // The door draws the newest grid at or before the instant "time". Without "time", or with "latest",
 // it draws the newest grid. If panels show several moments, it draws them at the newest instant at
-// which every moment has a grid. A ppi is drawn from a raw volume: that of the newest grid of any
+// which every moment has a grid. A ppi is drawn from the raw volume of the newest grid of any
 // moment.
 //
 // Threads   Many threads may use it.

@@ -140,7 +140,7 @@ Result<AskedPicture> picture_named(const std::vector<std::string_view>& path) {
     return AskedPicture{std::move(*style), *window, ending == ".png" ? ".png" : ".webp"};
 }
 
-// Returns the text that max_age_of() takes for a time: the coverage is that of the newest grid.
+// Returns the time of a path for max_age_of(). The coverage is always that of the newest grid.
 std::string_view time_text(const std::vector<std::string_view>& path) {
     return path[1] == "coverage" ? "latest" : path[2];
 }

@@ -9,15 +9,14 @@
 //
 // TIME is a frame's time in seconds since 1970. SIZE is 256 or 512 pixels. A latitude and a
 // longitude with decimal points in place of {x} and {y} give a picture of a tile's size around that
-// place. COLOR 0 has gray levels: the reflectivity in dBZ, rounded down, plus 32. 6 has the classes
-// of the Weather Service, and 1 to 5, 7 and 8 have our smooth table. OPTIONS is
+// place. COLOR 0 has gray levels: the reflectivity in dBZ, rounded down, plus 32. COLOR 6 has the
+// classes of the Weather Service, and COLOR 1 to 5, 7 and 8 have our smooth table. OPTIONS is
 // SMOOTH_SNOW, two digits that are 0 or 1. COLOR 0 is never smoothed, and snow has no colors of its
 // own. Tiles end with .png or .webp.
 //
 // Without a name, the domain is the first mosaic by name, else the first station. A frame is the
 // last grid of each ten minutes by the clock; the newest frame changes until its ten minutes are
-// over. There are no satellite
-// pictures and no nowcasts; their lists are empty.
+// over. There are no satellite pictures and no nowcasts; their lists are empty.
 //
 // Source    The public description of RainViewer's weather maps API 2.0, and of its legacy API.
 // Threads   Many threads may use it.

@@ -12,7 +12,7 @@
 namespace stormcellar::web {
 
 // Returns the entity of a volume. If the volume does not grow, clients may reuse it for a minute
-// without asking again, but not longer, because it may be sent again. If the volume grows, they
+// without asking again, but not longer, because it may be sent again. If the volume grows, clients
 // must ask each time.
 [[nodiscard]] Entity entity_of(const OpenedVolume& volume);
 

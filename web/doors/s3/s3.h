@@ -37,7 +37,7 @@ class S3Door final : public Door {
     Answer answer(const Request& request) override;
 
   private:
-    // Returns true for the bucket's name. The public bucket has its earlier name, too.
+    // Returns true for the bucket's name, and for its earlier name if it is the public bucket.
     [[nodiscard]] bool is_bucket(std::string_view name) const;
     // Returns true for the name of the bucket of chunks.
     [[nodiscard]] bool is_chunk_bucket(std::string_view name) const;

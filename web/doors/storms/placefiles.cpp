@@ -7,8 +7,8 @@
 namespace stormcellar::web {
 namespace {
 
-// Refuses unknown and repeated parameters, because a misspelled one would have no effect. Programs
-// for placefiles add the place of their radar to each request: lat, lon and dist.
+// Refuses unknown and repeated parameters, because a misspelled parameter would have no effect.
+// Programs for placefiles add the place of their radar to each request: lat, lon and dist.
 Result<StormQuery> placefile_query(const Request& request) {
     StormQuery query;
     for (const auto& [name, value] : request.query) {

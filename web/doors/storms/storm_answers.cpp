@@ -52,7 +52,7 @@ std::string dumped_storms(const ApiJson& json) {
 Result<WantedStorms> StormAnswers::want(StormText text, StormQuery query, Coding coding) const {
     const StormTextFacts facts = storm_text_facts(text);
     query.moment = facts.moment;
-    // Without such grids, the answer says so.
+    // If the area has grids, but none of shear, the answer says so instead of failing.
     const bool lacks_rotation = text == StormText::rotation_geojson && query.area &&
                                 !scans_->grids()->newest(*query.area, facts.moment) &&
                                 !scans_->grids()->moments(*query.area).empty();

@@ -35,8 +35,8 @@ class StormAnswers {
     StormAnswers(std::shared_ptr<StormScans> scans, std::shared_ptr<KeptAnswers> kept)
         : scans_(std::move(scans)), kept_(std::move(kept)) {}
 
-    // Finds the areas without opening a grid. Ignores the moment of the query and
-    // takes the one that the text needs. Errors: those of storm_areas().
+    // Finds the areas without opening a grid. Ignores the moment of the query and takes the moment
+    // that the text needs. Errors: those of storm_areas().
     [[nodiscard]] Result<WantedStorms> want(StormText text, StormQuery query, Coding coding) const;
     // Returns the text if it is kept; takes microseconds.
     [[nodiscard]] std::optional<Kept> find(const WantedStorms& wanted) const;

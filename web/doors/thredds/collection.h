@@ -59,8 +59,8 @@ class ThreddsCollection {
     [[nodiscard]] virtual std::vector<ThreddsVariable> variables() const = 0;
     // Returns true if a query must name a variable, because each variable has its own files.
     [[nodiscard]] virtual bool needs_variable() const = 0;
-    // Returns the configured stations, in their order. If none are configured, returns all that
-    // have files.
+    // Returns the configured stations, in their order. If none are configured, returns all stations
+    // that have files.
     [[nodiscard]] Result<std::vector<ThreddsStation>> stations();
     // Returns the start of the oldest file, or none if there is no file. The result may be a minute
     // old.

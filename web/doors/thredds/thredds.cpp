@@ -17,7 +17,7 @@ Answer xml_answer(const Request& request, std::string text) {
 }
 
 // Answers a query that failed. If the catalog cannot be read, the client made no mistake, so the
-// status is an error's.
+// answer has the status of an error.
 Answer query_error(const Error& error) {
     if (error.code == ErrorCode::bad_argument)
         return sentence(200, error.message).with("Cache-Control", "no-cache");
@@ -74,8 +74,8 @@ ThreddsDoor::ThreddsDoor(const std::shared_ptr<RawFiles>& files, ThreddsOptions 
         collections_.push_back(make_collection(configured, options_.config.places, files));
 }
 
-// Finds the data set with the longest matching path, because the path of one may begin with the
-// path of another.
+// Finds the data set with the longest matching path, because the path of one data set may begin
+// with the path of another.
 ThreddsDoor::Found ThreddsDoor::find(std::vector<std::string_view> segments) const {
     Found found;
     std::size_t longest = 0;

@@ -55,8 +55,8 @@ class LayerStyles {
     std::vector<std::pair<MapProduct, std::vector<std::string>>> styles_;
 };
 
-// Writes the document in one of two versions. Their elements have different names. In 1.1.1, they
-// must be in the order of its DTD.
+// Writes the document of version 1.3.0 or 1.1.1. The two versions name elements differently, and a
+// DTD fixes the order of the elements in 1.1.1.
 class CapabilitiesWriter {
   public:
     CapabilitiesWriter(WmsVersion version, std::string address)

@@ -7,8 +7,8 @@
 // In place of a moment, a path may name a 2D product as tiles do (map_product.h): /zarr/KTLX/mesh.
 //
 // Chunks are made on request and kept. A chunk of an evicted grid gets 404, which is the protocol's
-// answer for a missing chunk. Readers then use the fill value; in the array of states, it means
-// "unavailable".
+// answer for a missing chunk. Readers then use the fill value. In the array of states, the fill
+// value means "unavailable".
 //
 // Threads   Many threads may use it.
 #pragma once
