@@ -1,5 +1,5 @@
 // cli/accuracy/held_out_accuracy.h -- `stormcellar accuracy` over time: leaves out a volume or a
-// repeated cut, makes a grid for its instant in each way, and measures the error of each
+// repeated cut, interpolates a grid for its instant by each method, and measures the error of each
 // (grid/judge/held_out_sequence.h).
 #pragma once
 

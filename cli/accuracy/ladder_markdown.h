@@ -6,7 +6,7 @@
 //   status differs (%) | Pareto
 // time_s is the time of a grid whose geometry is kept, or of the first grid if only the first was
 // timed. Figures have three significant digits, rounded up; percentages have two decimals; "-"
-// stands for a missing value. A ladder of pictures (cli/picture/picture_ladder.h) has the columns
+// marks a missing value. A ladder of pictures (cli/picture/picture_ladder.h) has the columns
 //   step | rung | time_s | color p99 (dE) | Pareto
 //
 // Threads   Pure: may be called from any thread.

@@ -41,7 +41,7 @@ struct FoldRow {
 struct FoldLadder {
     double real_nyquist_mps = 0;  // the highest of the volume
     bool is_truth_exact = false;
-    std::vector<FoldRow> rows;  // by Nyquist velocity, from the real one downward
+    std::vector<FoldRow> rows;  // by Nyquist velocity, from the real velocity down
 };
 
 // Measures each rung at the real Nyquist velocity, and at 20, 16, 12 and 8.5 m/s where these are

@@ -115,9 +115,9 @@ Result<TaskOutcome> run_task(const batch::Plan& plan, const Task& task, const fs
 }
 
 // Runs a range of tasks, and goes on after a failure. Returns the status of the last task that no
-// other try can help. If there is none, returns exit_try_again if any task failed or an interrupt
-// came, else exit_done. A number that is not in the plan, or a task of the wrong kind, ends the run
-// with the status of that error.
+// other try can help. If there is no such task, returns exit_try_again if any task failed or an
+// interrupt came, else exit_done. A number that is not in the plan, or a task of the wrong kind,
+// ends the run with the status of that error.
 int run_tasks(const TaskCommand& command) {
     const auto range = parse_tasks(command.tasks);
     if (!range) return report_error(range.error());

@@ -1,5 +1,5 @@
-// cli/files/echo_report.h -- says what the echo of volumes is: weather, and the kinds of what is
-// not. Also says where snow melts.
+// cli/files/echo_report.h -- reports how much of the echo of volumes is weather or of another kind,
+// and where snow melts.
 #pragma once
 
 #include <nlohmann/json.hpp>

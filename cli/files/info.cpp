@@ -187,8 +187,8 @@ Status check_output(const InfoOptions& options) {
                              fmt::format("the format is {}", format.name), options.json);
 }
 
-// Returns the index of the volume to write. The index is 0 if the file is a set of chunks of which
-// only the chosen volume was decoded.
+// Returns the index of the volume to write. The index is 0 if the file is a set of chunks and only
+// the chosen volume was decoded.
 Result<std::size_t> chosen_volume(const InfoOptions& options, const InputFile& file,
                                   std::size_t count) {
     if (!file.chunks.empty() && count == 1) return 0;

@@ -66,7 +66,7 @@ Result<MadeGrid> grid_plainly(FileScene& scene, const GridRequest& request, cons
     return MadeGrid{std::move(*grid), {}};
 }
 
-// Returns what a plan of dealiasing leaves of the budget for the grid.
+// Returns the part of the budget that a plan of dealiasing leaves for the grid.
 std::optional<accuracy::Budget> budget_beside(const accuracy::Plan& dealiasing,
                                               std::optional<accuracy::Budget> budget) {
     if (!budget) return budget;
@@ -126,7 +126,7 @@ bool is_gridded(const GridRequest& request, level2::Moment moment,
     return !request.any_moment || std::ranges::any_of(volumes, has);
 }
 
-// Returns the request such that it plans the dealiasing if a derived moment is planned.
+// Returns the request. If a derived moment needs a plan, the request plans the dealiasing, too.
 GridRequest planning_dealiasing(GridRequest request, const std::vector<MomentRequest>& moments,
                                 std::optional<accuracy::Plan>& plan) {
     const auto planned = std::ranges::find_if(moments, [](const MomentRequest& of) {

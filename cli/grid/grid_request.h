@@ -38,7 +38,7 @@ struct GridRequest {
     std::vector<level2::Moment> more_moments;  // besides `moment`, in the order of level2::Moment
     retrieve::DerivedOptions derived;          // for moments that are derived
     std::optional<double> assumed_zero_c_m;    // as in GridOptions
-    // Plans the rung of dealiasing for a volume; null: as in `derived`.
+    // Plans the rung of dealiasing for a volume; null: takes the rung in `derived`.
     std::function<Result<retrieve::Dealiasing>(const level2::Volume&)> plan_dealiasing;
     bool any_moment = false;            // --moment all: leave out moments that no volume has
     std::optional<UtcTime> frame_time;  // selects the sweeps nearest to this time

@@ -132,8 +132,8 @@ std::set<std::string> stations_of(const std::vector<ArchiveVolume>& volumes) {
     return stations;
 }
 
-// Checks the stations. If a named station does not exist, the user made a mistake; `nothing`
-// reports it.
+// Checks the stations. If the catalog lacks a named station, the user made a mistake, so this
+// writes a message into `nothing`.
 Status check_stations(const ArchiveCall& call, const catalog::CatalogReader& catalog,
                       std::string& nothing) {
     const auto known = catalog.station_names();

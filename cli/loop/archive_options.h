@@ -39,8 +39,7 @@ struct ArchiveRequest {
     std::optional<pipeline::Bounds> bounds;
     GridRequest place;
     bool spacing_given = false;
-    bool place_given = false;  // a center or a projection makes a grid that is not the station's
-                               // own
+    bool place_given = false;  // true: a center or a projection was given
     std::optional<grid::Overlap> overlap;
     double overlap_length_m = 250'000;
 };

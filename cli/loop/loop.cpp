@@ -90,7 +90,7 @@ Status make_loop(LoopGrids& grids, const LoopOptions& options, const LoopScene& 
 
 // Reports and removes the grids that cannot be opened, so that the loop's description states the
 // true number of frames. Returns the first grid that can be opened. The plan for this grid is used
-// for all frames, and the report names its method for all.
+// for all frames, and the report names the method of this plan.
 std::optional<cache::GridFile> keep_readable(LoopGrids& grids, LoopReport& report) {
     std::optional<cache::GridFile> first;
     bool is_mixed = false;

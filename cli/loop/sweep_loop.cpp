@@ -65,7 +65,7 @@ struct SweepDrawing {
     std::optional<SweptVolume> volume;
     std::optional<grid::GridSpec> plane;  // plane of the first frame
     render::FrameCache cache;
-    // Storm cells to mark, of the grids of the cache or of the volumes; none if not asked for.
+    // Storm cells to mark, from grids of the cache or from the volumes. None if not asked for.
     std::optional<StoredCells> stored_cells;
     std::optional<SweptCells> swept_cells;
     std::optional<render::ShapeOverlay> shapes;

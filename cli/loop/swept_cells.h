@@ -26,8 +26,8 @@ class SweptCells {
     SweptCells(GridOptions options, std::optional<retrieve::FreezingLevels> freezing)
         : options_(std::move(options)), freezing_(freezing) {}
 
-    // Returns the cells of a volume, followed through the volumes that were asked for before.
-    // Numbers grow with time. Errors: those of PictureGrid::make() and scan_grid().
+    // Returns the cells of a volume, followed through the volumes of earlier calls. `number` must
+    // be larger for later volumes. Errors: those of PictureGrid::make() and scan_grid().
     [[nodiscard]] Result<render::CellOverlay> of(std::size_t number,
                                                  const std::filesystem::path& file);
 

@@ -59,8 +59,9 @@ Result<CellGrids> cell_grids_of(const CellInput& input, const std::string& file,
     return grids;
 }
 
-// Makes the grids of each file. If each file is of another radar, makes one mosaic of all. `typed`
-// are the words of the command line, of which a single file may need all: the names of its chunks.
+// Makes the grids of each file. If each file is of a different radar, makes one mosaic of all
+// files. `typed` has the words of the command line. If there is only one file, all words belong to
+// it, because they may name its chunks.
 Result<std::vector<CellGrids>> cell_grids_of_files(const CellInput& input, const InputFiles& inputs,
                                                    const std::vector<std::string>& typed) {
     std::vector<CellGrids> all;

@@ -30,10 +30,10 @@ struct CellScans {
     std::vector<std::string> newest_files;  // of the newest scan: one, or all of a mosaic
 };
 
-// Finds the cells of each file. Grids Level II files first. Files
-// of several radars, one of each, make one mosaic. The scans know the motion of the echo. Errors
-// name the file: those of PictureGrid; bad_argument for several files of some radars but not of
-// all, or for shear of a grid file.
+// Finds the cells of each file, after gridding Level II files. If the files are of several radars,
+// one file of each, they make one mosaic. Each scan has the motion of its echo. Errors name the
+// file: those of PictureGrid; bad_argument for several files of some radars but not of all, or for
+// shear of a grid file.
 [[nodiscard]] Result<CellScans> find_cell_scans(CellInput input);
 
 // Finds the cells of a grid, with the motion of the echo since the grid `before` if that has the

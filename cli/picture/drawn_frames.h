@@ -28,9 +28,9 @@ class DrawnFrames {
     explicit DrawnFrames(std::size_t limit_bytes = default_limit) : limit_(limit_bytes) {}
 
     using Draw = std::function<Result<render::Image>()>;
-    // Returns the picture of the grid's file with these marks, which any text describes. If the
-    // picture is not kept, draws it, and keeps it if there is room. All other parts of the scene
-    // must be the same in each call.
+    // Returns the picture of the grid's file with marks; `marks` is any text that differs for
+    // different marks. If the picture is not kept, draws it, and keeps it if there is room. All
+    // other parts of the scene must be the same in each call.
     Result<render::Image> frame(const std::filesystem::path& grid, const render::Scene& scene,
                                 const Draw& draw, const std::string& marks = {});
     // Forgets the pictures that the last loop did not use. Call it between two loops.

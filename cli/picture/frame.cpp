@@ -64,7 +64,7 @@ Result<FrameTiming> make_frame(const FrameOptions& options, const render::Scene&
 }
 
 // Returns the columns of rotation; none if there is no grid of shear. Errors: bad_argument if the
-// grid of shear has other cells than the shown one.
+// grid of shear has other cells than the shown grid.
 Result<std::optional<grid::BrickGrid>> columns_of(const FrameGrids& grids) {
     std::optional<grid::BrickGrid> columns;
     if (!grids.shear) return columns;

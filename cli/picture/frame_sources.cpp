@@ -213,7 +213,7 @@ Result<FrameGrids> made_grids(GridOptions grid, bool has_rotation) {
     return grids;
 }
 
-// Finds the storm cells of the files. Of several volumes of one radar, the picture then shows the
+// Finds the storm cells of the files. If one radar has several volumes, the picture then shows the
 // newest, unless its product is made from all of them. Returns the newest grid of reflectivity.
 Result<PictureGrid> find_cells_of_files(FrameOptions& options, const render::Scene& scene,
                                         FrameGrids& grids) {

@@ -142,7 +142,7 @@ cache::GridDescription describe_nowcast(cache::GridDescription latest, double mi
     latest.end_time += lead;
     for (const std::string& note : retrieve::nowcast_notes(minutes, score))
         latest.provenance.notes.push_back(note);
-    // These say how the cells of the latest grid were measured.
+    // Clear the members that say how the cells of the latest grid were measured.
     latest.provenance.sweeps.clear();
     latest.provenance.audit.clear();
     latest.provenance.predicted_error.clear();

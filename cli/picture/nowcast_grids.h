@@ -24,10 +24,10 @@ struct NowcastSource {
     GridOptions grid;  // for grids made from files
 };
 
-// Returns the grids of reflectivity in order of time. Each volume of a file gives a grid. Of a
-// domain, takes the grids of the last two hours. Leaves out volumes that begin after `time`.
-// Errors: bad_argument for files of several radars, and for options of the grid with a domain;
-// not_found if there is no volume until then; those of making and opening grids.
+// Returns the grids of reflectivity in order of time. Each volume of a file gives a grid. A domain
+// gives its grids of the last two hours. Leaves out volumes that begin after `time`. Errors:
+// bad_argument for files of several radars, and for options of the grid with a domain; not_found if
+// no volume is left; those of making and opening grids.
 [[nodiscard]] Result<std::vector<PictureGrid>> nowcast_grids(NowcastSource& source);
 
 // Returns views of the grids with the middle times of their volumes. The grids must outlive them.

@@ -1,11 +1,11 @@
 // cli/picture/rain_sources.h -- gets the volumes of a rain total: from files, whose rates it grids,
 // or from the grids that the cache has of a domain.
 //
-// A total of some hours ends at a time, or else at the middle of the newest volume. The volumes
-// before and after it, up to the longest bridge (RainTotal), tell the rates at its ends. A domain's
-// total uses its grids of RATE. If those of REF reach further into its time, it uses these, which
-// give rates by reflectivity alone, and a note says so. Grids with other cells than the newest one
-// are left out, so that their minutes are not seen.
+// A total of some hours ends at a given time, or else at the middle of the newest volume. The
+// volumes before and after these hours, up to the longest bridge (RainTotal), give the rates at
+// both ends. A domain's total uses its grids of RATE. If its grids of REF cover more of the hours,
+// the total uses these with rates by reflectivity alone, and a note says so. Grids with other cells
+// than the newest grid are left out, so that their minutes are not seen.
 //
 // Threads   One thread at a time; work is split over `threads`.
 // Errors    bad_argument for hours out of range; not_found if the domain has no grids; those of

@@ -21,7 +21,7 @@ namespace stormcellar::cli {
 // A raw volume that the catalog has. It may still be growing.
 struct RawVolume {
     std::string file;
-    UtcTime start;  // of the volume; the file may hold others, too
+    UtcTime start;  // of the volume; the file may hold further volumes
     std::vector<std::byte> bytes;
     std::vector<std::string> notes;  // remarks, such as missing chunks
 };

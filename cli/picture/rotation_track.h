@@ -1,8 +1,8 @@
 // cli/picture/rotation_track.h -- the largest azimuthal shear of each cell over time.
 //
-// The volume that knows more of a cell decides (retrieve::knowledge()). Of two values the larger
-// stays, so that counterclockwise rotation leaves a track. retrieve::add_to_track() does the same
-// for the gates of one radar.
+// In each cell, the volume with the higher rank of state counts (retrieve::knowledge()). Of two
+// values the larger counts, so that counterclockwise rotation leaves a track.
+// retrieve::add_to_track() does the same for the gates of one radar.
 //
 // Threads   One thread at a time; work is split over `threads`.
 #pragma once
@@ -21,8 +21,8 @@ class RotationTrack {
     [[nodiscard]] Status add(const grid::BrickView& view, const cache::GridDescription& description,
                              int threads);
 
-    // These need at least one volume. The description is that of the newest volume, with a note
-    // that gives the time of the first one (render::track_note()).
+    // Both functions need at least one volume. The description is that of the newest volume, with a
+    // note that gives the time of the first volume (render::track_note()).
     [[nodiscard]] grid::BrickView view() const { return bricks_->view(); }
     [[nodiscard]] const cache::GridDescription& description() const { return description_; }
     [[nodiscard]] grid::BrickGrid take_bricks() { return std::move(*bricks_); }

@@ -41,7 +41,7 @@ struct ValueAdder {
     CLI::Option* operator()(const WholeValue& value) const {
         int& field = *value.field(to);
         CLI::Option* option = app.add_option(name, field, help);
-        // A default that is out of range stands for "not given", so help shows no default.
+        // A default that is out of range means "not given", so help shows no default.
         if (is_within<double>(field, value.range.least, value.range.most)) {
             option->capture_default_str();
         }
@@ -57,7 +57,7 @@ struct ValueAdder {
         const double unit = value.unit;
         CLI::Option* option = app.add_option_function<double>(
             name, [field, unit](const double& number) { *field = number * unit; }, help);
-        // A default that is out of range stands for "not given", so help shows no default.
+        // A default that is out of range means "not given", so help shows no default.
         const double usual = *field / unit;
         if (value.or_zero || is_within(usual, value.range.least, value.range.most)) {
             option->default_str(fmt::format("{}", usual));

@@ -26,8 +26,8 @@ Result<render::CellOverlay> StoredCells::at(UtcTime time) {
     return overlay_of(scans);
 }
 
-// Finds the cells of the grids that are not known, and forgets those before the first grid. A grid
-// that cannot be read is left out, unless it is the newest.
+// Finds the cells of grids whose cells are not known yet, and forgets the cells of grids before
+// `entries`. Leaves out a grid that cannot be read, unless it is the newest.
 Status StoredCells::find(const std::vector<cache::StoreEntry>& entries) {
     scans_.erase(scans_.begin(), scans_.lower_bound(entries.front().time));
     std::optional<PictureGrid> before;

@@ -84,7 +84,7 @@ std::optional<nlohmann::json> read_status_file(const fs::path& file) {
     return parse_object({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }
 
-// Returns the entries of the status document's list of loops that are objects.
+// Returns those entries of the status document's list of loops that are objects.
 std::vector<nlohmann::json> each_loop(const nlohmann::json& document) {
     std::vector<nlohmann::json> loops;
     const auto all = document.find("loops");
@@ -132,7 +132,7 @@ void add_those_that_lack(nlohmann::json& loops, const std::vector<nlohmann::json
         if (loop.contains("name") && !has(loop["name"])) each.push_back(loop);
 }
 
-// Adds the socket that the status file names, unless the list has it, to be tried last.
+// Appends the socket that the status file names, unless the list already has it.
 void add_named_socket(StatusPlaces& places) {
     const auto document = read_status_file(places.file);
     if (!document) return;

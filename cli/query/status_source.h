@@ -17,8 +17,8 @@
 
 namespace stormcellar::cli {
 
-// At most one of these places is set. If none is, the status of the service in its usual places is
-// wanted.
+// At most one of these places is set. If no place is set, the service is looked for in its usual
+// places.
 struct StatusOptions {
     std::string socket, state, config;
     bool json = false;

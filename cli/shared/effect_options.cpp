@@ -19,7 +19,7 @@ using accuracy::Setting;
 
 constexpr std::string_view standard_profile = "standard";
 
-// The settings of effects that the name of a method stands for.
+// The settings of effects that the name of a method means.
 using Settings = std::vector<EffectOverride>;
 
 // Returns the settings of each method. A method of interpolation turns its own effect on and the

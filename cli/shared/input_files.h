@@ -1,8 +1,8 @@
 // cli/shared/input_files.h -- finds and reads the raw files that a command line names.
 //
-// A name may be a file, a tar or zip archive (which stands for its members), a directory (for all
-// files below it, or for one volume if it holds chunks) or "-" for standard input. Chunks of one
-// volume that are named one by one, as by a shell's pattern, form one volume. A member is written
+// A name may be a file, a tar or zip archive (for its members), a directory (for all files below
+// it, or for one volume if it holds chunks) or "-" for standard input. Chunks of one volume that
+// are named one by one, as by a shell's pattern, form one volume. A member is written
 // ARCHIVE!MEMBER. If an entry of a directory or an archive is not Level II, it is left out and
 // reported; a named file must be Level II.
 //

@@ -1,6 +1,6 @@
 // cli/shared/paint.h -- colors errors and warnings in text for a terminal.
 //
-// Thread contract: pure but for paint_for(), which reads the environment.
+// Thread contract: pure functions, except paint_for(), which reads the environment.
 #pragma once
 
 #include <string>
