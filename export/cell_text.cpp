@@ -66,7 +66,8 @@ ordered_json feature(std::string_view type, ordered_json points, ordered_json pr
             {"properties", std::move(properties)}};
 }
 
-// Names the heights on which MESH depends, and the error of both that its range covers.
+// Names the heights on which MESH depends, and the error of both heights that the range of MESH
+// covers.
 void add_freezing_levels(const TrackedScan& scan, ordered_json& json) {
     if (!scan.freezing) return;
     json["assumed_freezing_levels_m"] = {scan.freezing->zero_c_m, scan.freezing->minus_20_c_m};

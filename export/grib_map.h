@@ -1,11 +1,11 @@
 // export/grib_map.h -- writes one 2D product of a grid as GRIB2, in memory; internal.
 //
 // The file has two messages on the same grid. The first has the values, with a bitmap for columns
-// without one. The second has the states of the columns, in the parameter 192 of the first one's
-// category, which GRIB2 leaves to local use. Section 2 (local use) of both is text, one "name:
+// without one. The second has the states of the columns, in parameter 192 of the same category;
+// GRIB2 leaves this parameter to local use. Section 2 (local use) of both is text, one "name:
 // value" a line. The originating center is "missing" (255).
 //
-// A grid in latitude and longitude has template 3.0, a Lambert grid template 3.30. GRIB2 has no
+// A grid in latitude and longitude has template 3.0; a Lambert grid has template 3.30. GRIB2 has no
 // template for azimuthal_equidistant about any place. Rows run from south to north. Values are
 // packed simply, in 16 bits (template 5.0).
 //

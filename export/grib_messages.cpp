@@ -248,7 +248,7 @@ Result<std::vector<std::byte>> message_of_states(const Map& map) {
 
 Result<std::vector<std::byte>> messages_of(const Map& map) {
     const MutexLock lock(library_mutex());
-    // ecCodes would print its failures, which the results have, too.
+    // Keep ecCodes from printing its failures, because the results report them.
     grib_context_set_logging_proc(grib_context_get_default(),
                                   [](const grib_context*, int, const char*) {});
     const auto values = message_of_values(map);

@@ -59,8 +59,8 @@ struct GridField {
 // a moment begin with its name (REF_status).
 [[nodiscard]] std::vector<GridField> fields_of(std::span<const grid::Grid> grids);
 
-// Returns the attributes of the file: the facts that all grids share. If there is a single grid,
-// also those that differ between moments, which are else attributes of the fields.
+// Returns the attributes of the file: the facts that all grids share. Facts that may differ between
+// moments are among them only if there is a single grid; otherwise the fields have these facts.
 [[nodiscard]] CfAttributes provenance_attributes(std::span<const grid::Grid> grids);
 
 // Returns the time of a grid in seconds since 1970, and the long_name of this time.

@@ -2,8 +2,9 @@
 //
 // The file has the dimensions time (unlimited, one element), y and x, or lat and lon, as grid files
 // do (stormcellar/export/grid_netcdf.h). The product is a float variable with a fill value in
-// columns without a value. The ancillary variable `status` says for each column why it has none, or
-// that the true value may be larger. A product of a span of time has the bounds time_bnds.
+// columns without a value. The ancillary variable `status` says for each column why it has no
+// value, or that the true value may be larger. A product of a span of time has the bounds
+// time_bnds.
 //
 // Units     As the attributes of the product say.
 // Threads   Any thread may call; the netCDF library works for one caller at a time.

@@ -134,8 +134,8 @@ void write_root(Hdf5Builder& file, const Volume& volume, const VolumeWriteOption
     if (!options.notes.empty()) file.text("comment", text_of_notes(options.notes));
 }
 
-// Writes the Nyquist velocity. Where radials differ, NI has that of the first, and an array of our
-// own those of all rows.
+// Writes the Nyquist velocity. If radials differ, NI has the velocity of the first radial, and an
+// array of our own has the velocities of all rows.
 void write_nyquist(Hdf5Builder& file, const Sweep& sweep, const std::vector<std::size_t>& order) {
     const float first_mps = sweep.radials.front().nyquist_mps;
     std::vector<double> all_mps;

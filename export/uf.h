@@ -25,9 +25,10 @@
 //
 // All fields of the volume are in each radial, with one factor, on the range axis of CfRadial 1.4
 // (RangeAxes::one_if_possible): readers such as Py-ART take fields, factors, gates and range of all
-// radials from the first. So the first radial of a sweep has as many gates as the longest of the
-// sweep, and the first of the volume as many as the axis. If there is no such axis, or with
-// RangeAxes::of_each_geometry, a radial has only its own fields, each with its own gates.
+// radials from the first. So the first radial of a sweep has as many gates as the longest radial of
+// the sweep, and the first radial of the volume has as many gates as the axis. If there is no such
+// axis, or with RangeAxes::of_each_geometry, a radial has only its own fields, each with its own
+// gates.
 //
 // UF has one word for all gates without a value. It has whole seconds, and 1/64 degree.
 //

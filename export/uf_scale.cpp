@@ -29,7 +29,7 @@ bool is_exact(const SweepMoment& moment, int factor) {
     return is_whole(exact_value(moment, 0) * factor) && is_whole(exact_value(moment, 1) * factor);
 }
 
-// Returns the largest code that is a value: that of the gates for wide codes, else 255.
+// Returns the largest code that is a value: for wide codes the largest code of the gates, else 255.
 int largest_code(const SweepMoment& moment) {
     if (moment.word_size_bits == 8) return 255;
     int largest = 0;
