@@ -44,7 +44,7 @@ TEST(Chain, SettingsNarrowTheRungs) {
     frame.effects[0].setting = Setting::automatic;
     EXPECT_EQ(allowed_rungs(frame).least, 2U);
     frame.effects[1].setting = Setting::automatic;
-    frame.effects[0].setting = Setting::off;  // the second effect requires it
+    frame.effects[0].setting = Setting::off;  // required by the second effect
     EXPECT_EQ(allowed_rungs(frame).most, 0U);
 }
 
@@ -58,7 +58,7 @@ TEST(Chain, WhatTheSceneDoesNotAskForIsNoErrorWhenLeftOff) {
     EXPECT_EQ(allowed_rungs(chain.steps[1]).most, 1U);
     EXPECT_NEAR(left_off(chain, none).position_m, all - geodesic, 1e-12 * all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 1, 1));
-    // An effect that is on requires an effect that is off, which is an error.
+    // It is an error if an effect that is on requires an effect that is off.
     chain.steps[1].effects[1].setting = Setting::off;
     EXPECT_EQ(left_off(chain, none).position_m, all);
     EXPECT_THAT(exact_choice(chain).rungs, ElementsAre(1, 2, 1));

@@ -65,9 +65,10 @@ TEST(Planner, AnEffectWithoutABoundIsOn) {
     EXPECT_EQ(plan_of(chain, "100 km, 100 dB").choice.rungs[0], 1U);
     EXPECT_EQ(plan_of(chain, "100 km").choice.rungs[0], 1U)
         << "no budget allows an unbounded error";
-    EXPECT_EQ(plan_of(chain, "1 s").choice.rungs[0], 1U) << "a short time does not allow it either";
+    EXPECT_EQ(plan_of(chain, "1 s").choice.rungs[0], 1U)
+        << "a time budget allows no unbounded error, either";
     chain.steps[0].effects[0].setting = Setting::off;
-    EXPECT_TRUE(plan_of(chain, "100 km").meets_budget) << "the user set it off";
+    EXPECT_TRUE(plan_of(chain, "100 km").meets_budget) << "the user set the effect off";
 }
 
 TEST(Planner, ATimeBuysTheMostAccuracyThatFits) {

@@ -86,7 +86,7 @@ TEST(PlotLayout, TicksLieInsideApartAndWhereTheySay) {
     }
 }
 
-// Returns a plot of 25 points of five steps, some of them nearly equal.
+// Returns a plot of 25 points of five steps. Some points are nearly equal.
 Plot crowded() {
     std::mt19937_64 random(3);
     Plot plot;

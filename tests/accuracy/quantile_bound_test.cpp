@@ -59,8 +59,8 @@ TEST(QuantileBound, IndependentErrorsAreCoveredAsPromised) {
     Random random(20261121);
     for (const Law& law : laws) {
         for (const BoundRequest request : {BoundRequest{0.99, 0.9}, BoundRequest{0.95, 0.99}}) {
-            // The true quantile: the smallest value that at most a share 1 - quantile of the
-            // magnitudes exceeds.
+            // The true quantile: the smallest value such that at most a share 1 - quantile of the
+            // magnitudes is larger.
             const double truth = law.inverse(std::nextafter(request.quantile, 0));
             const int trials = 4000;
             const Outcome outcome = simulate(trials, truth, [&] {

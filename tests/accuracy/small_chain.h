@@ -10,9 +10,9 @@ namespace stormcellar::accuracy::testing {
 
 // Returns a chain of three steps, with values in decibels: a beam (4/3 earth, traced), a frame
 // (sphere, ellipsoid, geodesic) and averaging (dB, linear Z). The four effects are refraction, the
-// ellipsoid, the geodesic and linear Z. If one of them is left off, the error is 200 m, 240 m, 30 m
-// and 0.3 dB, in this order. Their costs are 1 s, 0.1 s, 2 s and 0.5 s. The error of linear Z is
-// known from a sample; the other errors are proven bounds.
+// ellipsoid, the geodesic and linear Z. The error of leaving one of these effects off is 200 m, 240
+// m, 30 m and 0.3 dB, in this order. The costs of the effects are 1 s, 0.1 s, 2 s and 0.5 s. The
+// error of linear Z is known from a sample; the other errors are proven bounds.
 [[nodiscard]] Chain small_chain();
 
 // Returns a chain of up to four steps of up to three effects, with small whole numbers, so that

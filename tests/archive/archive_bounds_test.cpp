@@ -1,5 +1,5 @@
-// Tests that reading ends at its bounds for archives that were made to take much time, memory or
-// disk.
+// Reads archives that were made to take much time, memory or disk, and tests that reading ends at
+// its bounds.
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -50,7 +50,7 @@ TEST(ArchiveReader, BombsStopAtTheLimits) {
     EXPECT_THAT(crowd->left_out().at(0).reason, HasSubstr("more than 3 members"));
 }
 
-// 2026-11-25: libarchive unpacked members to skip them, and nothing counted these bytes.
+// 2026-11-25: libarchive unpacked members to skip them, and nothing counted the unpacked bytes.
 TEST(ArchiveReader, WhatIsPassedOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     Limits limits;
@@ -119,8 +119,8 @@ std::vector<std::byte> tar_with_headers(const std::string& pax, int files) {
     return tar;
 }
 
-// Returns a tar with a sparse file in GNU's format 1.0, whose data begin with a map of `entries`
-// entries, and a plain file.
+// Returns a tar with a plain file and a sparse file in GNU's format 1.0. The data of the sparse
+// file begin with a map of `entries` entries.
 std::vector<std::byte> sparse_tar(std::size_t entries) {
     const std::string pax = record("GNU.sparse.major=1") + record("GNU.sparse.minor=0") +
                             record("GNU.sparse.name=KTLX") + record("GNU.sparse.realsize=4");
@@ -196,8 +196,7 @@ TEST(ArchiveReader, ManyLongHeadersEndItToo) {
     EXPECT_LT(names(100'000, 60), 50U);
 }
 
-// 2026-11-28: each archive inside an archive could unpack all the bytes that the bound allows, only
-// to skip them.
+// 2026-11-28: the skipped bytes of each archive inside an archive had a bound of their own.
 TEST(ArchiveReader, WhatInnerArchivesPassOverCountsToo) {
     const std::vector<std::byte> zeros(std::size_t{8} << 20);
     const auto bomb = make_archive(Kind::tar_gz, {{"../a", zeros}, {"b", bytes_of("b")}});
@@ -404,7 +403,7 @@ TEST(ArchiveReader, WhatIsCompressedTwiceAndUnpacksToNothingTakesNoTime) {
         },
         budget, true, [](std::uint64_t bytes) { return bytes; });
     EXPECT_FALSE(stream);
-    EXPECT_FALSE(is_read) << "the first bytes suffice to refuse it";
+    EXPECT_FALSE(is_read) << "the first bytes suffice to refuse the file";
     EXPECT_FALSE(ArchiveReader::open(bytes_of(file)));
 }
 

@@ -18,7 +18,7 @@ using testing::NetcdfWriter;
 
 constexpr std::uint64_t most_bytes = 1 << 20;
 
-// A file with its tree, which has every group, attribute and array of the test.
+// A file and its tree. The tree has every group, attribute and array of the test.
 struct Tree {
     std::vector<std::byte> bytes;
     Group root;
@@ -87,7 +87,8 @@ TEST(ArrayFile, ReadsArraysOfEachLayout) {
     }
 }
 
-// So many objects and attributes need every kind of index: nodes of B-trees, and blocks of heaps.
+// The file has so many objects and attributes that it needs every kind of index: nodes of B-trees,
+// and blocks of heaps.
 TEST(ArrayFile, ReadsManyObjects) {
     for (const H5F_libver_t newest : {H5F_LIBVER_V18, H5F_LIBVER_V110}) {
         Hdf5Writer file{newest};
@@ -124,7 +125,8 @@ TEST(ArrayFile, ReadsEachFormOfNetcdf) {
             ASSERT_NE(field, nullptr);
             EXPECT_THAT(field->shape, ElementsAre(3, 2));
             EXPECT_EQ(field->attributes.text("units"), "dBZ");
-            // netCDF-4 tells the dimensions only if they have arrays of their own.
+            // A netCDF-4 file names a dimension only if an array holds the coordinates of this
+            // dimension.
             if (mode != NC_NETCDF4) {
                 EXPECT_THAT(field->dimensions, ElementsAre("time", "range"));
             }

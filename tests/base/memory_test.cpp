@@ -76,8 +76,8 @@ TEST(LargePages, AnArrayIsAllZero) {
     }
 }
 
-// With large pages, touching 32 MiB causes few faults. Without large pages, it causes as many as
-// usual.
+// With large pages, touching 32 MiB causes few faults. Without large pages, the number of faults is
+// as usual.
 TEST(LargePages, AreAHintThatCostsNoMoreFaults) {
 #if defined(STORMCELLAR_SANITIZED) || !defined(__GLIBC__)
     GTEST_SKIP() << "needs glibc's malloc without a sanitizer";

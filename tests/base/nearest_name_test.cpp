@@ -33,7 +33,7 @@ TEST(NearestName, IsNoneIfTheWordIsAnother) {
     const std::vector<std::string> names{"volume", "section", "SW"};
     EXPECT_FALSE(nearest_name("cappi", names));
     EXPECT_FALSE(nearest_name("", names));
-    EXPECT_FALSE(nearest_name("x", names)) << "a name needs fewer edits than it has bytes";
+    EXPECT_FALSE(nearest_name("x", names)) << "a match needs fewer edits than the name has bytes";
     EXPECT_FALSE(nearest_name(std::string(81, 'v'), names));
     EXPECT_FALSE(nearest_name("volume", {}));
 }

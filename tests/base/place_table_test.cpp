@@ -34,8 +34,7 @@ TEST(PlaceTable, NamesAreComparedAsTheyAreTyped) {
     EXPECT_EQ(compared_name("Coeur d'Alene"), "coeur dalene");
     EXPECT_EQ(compared_name("Ca\u00F1on City"), "canon city");
     EXPECT_EQ(compared_name("Bayam\u00F3n"), "bayamon");
-    EXPECT_EQ(compared_name("\xC3"), "\xC3")
-        << "a truncated letter must not be read beyond its end";
+    EXPECT_EQ(compared_name("\xC3"), "\xC3") << "nothing after a truncated letter may be read";
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Spawn, SaysWhatIsNotThere) {
 TEST(FindProgram, LooksBesideThisProgramAndOnThePath) {
     EXPECT_EQ(find_program("sh").filename(), "sh");
     EXPECT_EQ(find_program("base_test").filename(), "base_test")
-        << "the program is in this program's directory";
+        << "base_test is in the directory of the running program";
     EXPECT_EQ(find_program("no-such-program"), "");
 }
 

@@ -30,8 +30,8 @@ TEST(StationTable, EveryFieldIsFilled) {
     }
 }
 
-// The 165 WSR-88D are 159 in operation, the former KJAN, KLIX, KRMX and LPLA, and KCRI and KOUN in
-// Norman.
+// The 165 WSR-88D are 159 radars in operation, four former radars (KJAN, KLIX, KRMX and LPLA), and
+// two radars in Norman (KCRI and KOUN).
 TEST(StationTable, HoldsTheWholeNetwork) {
     EXPECT_EQ(count(RadarKind::nexrad), 165U);
     EXPECT_EQ(count(RadarKind::tdwr), 45U);
@@ -50,7 +50,8 @@ TEST(StationTable, PositionsAreInBounds) {
     }
 }
 
-// The names of all TDWR begin with T, and so does the name of one WSR-88D, TJUA in Puerto Rico.
+// The names of all TDWR begin with T. The only WSR-88D whose name begins with T is TJUA in Puerto
+// Rico.
 TEST(StationTable, KindsFollowNames) {
     for (const Station& station : all_stations()) {
         const bool tdwr = station.icao.front() == 'T' && station.icao != "TJUA";
@@ -58,7 +59,8 @@ TEST(StationTable, KindsFollowNames) {
     }
 }
 
-// The first letters of an ICAO name give the region, so lost signs and swapped fields are found.
+// The first letters of an ICAO name give the region, so the test finds lost signs and swapped
+// fields.
 TEST(StationTable, NamesFollowPlaces) {
     for (const Station& station : all_stations()) {
         if (station.icao.front() == 'K') {
@@ -117,7 +119,7 @@ TEST(StationTable, AgreesWithMessage31) {
 }
 
 // These positions come from an independent source: the product description blocks of Level III
-// products of 2013 to 2023, which have thousandths of a degree and feet.
+// products of 2013 to 2023. The blocks give thousandths of a degree, and feet.
 TEST(StationTable, AgreesWithLevelIIIProducts) {
     constexpr double foot_m = 0.3048;
     const Reported products[] = {
@@ -135,9 +137,9 @@ TEST(StationTable, AgreesWithLevelIIIProducts) {
 }
 
 // In September 2010, two sites took their heights in meters for feet and converted them again:
-// message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX, which is 0.3048 times the heights of the
-// table. The table's height replaces a reported height that differs by more than 30 m, so the
-// difference must be larger.
+// message 31 had 4 + 9 m at KDOX and 171 + 9 m at KTYX. These heights are 0.3048 times the heights
+// of the table. The table's height replaces a reported height that differs by more than 30 m, so
+// the differences of these two sites must be larger.
 TEST(StationTable, ContradictsHeightsConvertedTwice) {
     const auto dover = find_station("KDOX");
     const auto drum = find_station("KTYX");

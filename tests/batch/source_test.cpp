@@ -1,4 +1,4 @@
-// Tests how the files of an archive are listed, and how a task gets them.
+// Tests how the files of an archive are listed, and how a task gets the files.
 #include "batch/source.h"
 
 #include <fstream>
@@ -152,7 +152,7 @@ TEST_F(Source, WhatIsNamedAsATarAndIsNoneIsNamed) {
     EXPECT_EQ(listing.nameless, 1U);
 }
 
-// 2026-11-29: members after the cut were neither gridded nor reported.
+// 2026-11-29: if an archive was cut, the members after the cut were neither gridded nor reported.
 TEST_F(Source, ATarThatIsCutIsNamed) {
     write_tar("day.tar",
               {{"KTLX20130520_203000", archive::bytes_of(std::string(9000, 'a'))},
@@ -182,7 +182,8 @@ TEST_F(Source, AMemberThatCannotBeReadIsNamed) {
                         "day.tar!day/KTLX20130520_204000: is a link");
 }
 
-// 2026-11-29: members after the cut were not reported unless the cut was within a volume.
+// 2026-11-29: if an archive was cut, the members after the cut were reported only if the cut was
+// within a volume.
 TEST_F(Source, ATarThatIsCutBehindItsVolumesIsNamed) {
     write_tar("day.tar",
               {{"KTLX20130520_203000", archive::bytes_of("a")},

@@ -72,7 +72,8 @@ TEST_F(BatchTasks, ASecondRunFindsWhatStandsAndASecondCacheHasTheSameBytes) {
     EXPECT_EQ(tree_of(directory_ / "two"), bytes);
 }
 
-// 2026-11-30: a batch knew neither the quality nor the dealiasing of the daemon.
+// 2026-11-30: a batch could neither leave out echo that is not weather nor dealias, as the daemon
+// does.
 TEST_F(BatchTasks, GridsOfWeatherAndOfDealiasedVelocitiesAreThoseOfTheDaemon) {
     Recipe recipe = this->recipe("weather");
     recipe.domain.reset();
@@ -97,7 +98,7 @@ TEST_F(BatchTasks, GridsOfWeatherAndOfDealiasedVelocitiesAreThoseOfTheDaemon) {
         ASSERT_TRUE(ingestor.ingest(raw_ / "day" / name, false));
     const auto daemons = tree_of(directory_ / "kept");
     EXPECT_EQ(tree_of(directory_ / "weather"), daemons);
-    // A plan of all echo with the same cache makes its own grids.
+    // A plan that keeps all echo makes its own grids, although the cache is the same.
     recipe.derived.quality = 0;
     run_all(plan_of(recipe, "plan of all echo"));
     EXPECT_NE(tree_of(directory_ / "weather"), daemons);
@@ -155,8 +156,8 @@ TEST_F(BatchTasks, AKilledTaskContinuesWithTheFileThatItWasAt) {
         << "the first file need not be read again";
     EXPECT_EQ(again->record.taken_by_hour[2], 3U);
     EXPECT_FALSE(fs::exists(own));
-    EXPECT_TRUE(fs::exists(running)) << "another process of this host may be writing it";
-    EXPECT_TRUE(fs::exists(of_other)) << "another host may be writing it";
+    EXPECT_TRUE(fs::exists(running)) << "another process of this host may be writing the file";
+    EXPECT_TRUE(fs::exists(of_other)) << "another host may be writing the file";
     EXPECT_EQ(remove_all_leftovers(plan), 2U);
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
@@ -272,8 +273,8 @@ TEST_F(BatchTasks, FramesWaitForAGridThatCannotBeRead) {
     EXPECT_EQ(tree_of(directory_ / "two"), tree_of(directory_ / "one"));
 }
 
-// 2026-11-29: on a machine without the cache, tasks made empty frames and statistics and counted as
-// done for good.
+// 2026-11-29: on a machine without the cache, tasks made empty frames and empty statistics, and
+// counted as done for good.
 TEST_F(BatchTasks, FramesAndStatisticsWaitForTheGridsOfTheirRecords) {
     Recipe counted = recipe("one");
     counted.statistics = grid::Tallied::columns;
@@ -309,8 +310,8 @@ TEST_F(BatchTasks, GridsOfTheNextDayDoNotStandForThoseOfADay) {
     expect_unreadable(run(plan, 1), "has 2 of the 3 grids that task 0 made");
 }
 
-// A grid that another plan made for this day does no harm beside our grids. In place of one of our
-// grids, it is an error.
+// A grid that another plan made for this day does no harm beside our grids, but is an error in the
+// place of one of our grids.
 TEST_F(BatchTasks, AnotherPlansGridOfTheDayDoesNotStandForOurs) {
     const Plan plan = plan_of(recipe("one"), "plan");
     ASSERT_TRUE(run(plan, 0));

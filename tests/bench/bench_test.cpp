@@ -158,7 +158,7 @@ TEST(BenchMosaic, TasksMakeTheFramesOfAnHourBesideOneProcess) {
     EXPECT_NE(said.err.find(", 12 frames"), std::string::npos) << said.err;
 }
 
-// A run with one site and two threads has the keys of the paper's table.
+// The output of a run with one site and two threads has the keys of the paper's table.
 TEST(BenchMosaic, RowsHaveTheKeysOfTheTable) {
     STORMCELLAR_NEED_DATA();
     EXPECT_EQ(run_program(bench("bench_mosaic"), {"--work"}).status, 2);

@@ -63,7 +63,7 @@ TEST(StampedRecords, WhatIsNoneIsRefused) {
     EXPECT_FALSE(StampedRecords::read(cut));
 }
 
-// Returns a feed of eight sites, which have all three kinds of volumes.
+// Returns a feed of eight sites. Their volumes are of all three kinds.
 const NationalFeed& feed() {
     static const testing::TemporaryDirectory directory;
     static const NationalFeed made =

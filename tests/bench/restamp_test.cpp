@@ -91,7 +91,8 @@ INSTANTIATE_TEST_SUITE_P(All, EachKind,
                          ::testing::Values("mosaic-northeast/KDOX20100911_012056_V04.gz",
                                            "sequence-kbgm/KBGM20050822_024414.gz", "simulated-3"));
 
-// The heights of site and tower must differ, because a reader takes equal heights for one height.
+// The heights of site and tower must differ, because a reader takes two equal heights for a single
+// height that was sent twice.
 TEST(Restamp, SplitsAnAltitudeIntoTwoHeightsThatAddUp) {
     level2::Volume volume;
     volume.block.emplace();

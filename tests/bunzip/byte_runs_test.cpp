@@ -65,7 +65,8 @@ TEST_P(ByteRunsOf, AnySymbolsInAnyBatches) {
             const unsigned most = random() % 4 == 0 ? bytes + 1 : std::min(bytes + 1, 18U);
             symbol = static_cast<std::uint16_t>(random() % most);
         }
-        // Runs of random digits alone would soon be longer than memory.
+        // Break long rows of digits, because the run that they give would soon be longer than
+        // memory.
         for (std::size_t i = 0, digits = 0; i < symbols.size(); ++i) {
             digits = symbols[i] <= run_b ? digits + 1 : 0;
             if (digits > 9) symbols[i] = std::uint16_t{2};

@@ -76,7 +76,7 @@ TEST(LinkWalk, ManyRings) {
 }
 
 // Each walk begins at a mark. Here all marks are close together on the ring, so one of the walks
-// would have to read nearly all of the block, for which it has no room.
+// would have to read nearly all of the block, but has no room for so many bytes.
 TEST(LinkWalk, OneWalkThatHasItAll) {
     constexpr std::uint32_t rows = 600'000;
     std::vector<std::uint32_t> order;

@@ -20,7 +20,7 @@ constexpr std::size_t most = std::size_t{16} << 20;
 class OddStreams : public ::testing::TestWithParam<Path> {
   protected:
     // Compares the results of bunzip and libbz2. Returns how the stream ends according to libbz2,
-    // so that a test can state it.
+    // so that a test can state the expected end.
     End check(const Bytes& stream, std::size_t limit = most) {
         const LibraryOutcome wanted = decompressed(stream, limit);
         std::vector<std::byte> out;
@@ -183,7 +183,7 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     block.origin = 17;
     EXPECT_EQ(check(mended_stream('9', block)), End::whole);
 
-    // The randomised block comes after the same block without randomising, which is returned first.
+    // The stream has two blocks with the same symbols: a plain block, and then a randomised block.
     BlockPlan first = block;
     first.randomised = false;
     BlockPlan blocks[] = {first, block};
@@ -197,8 +197,8 @@ TEST_P(OddStreams, RandomisedBlocksAreLibbz2s) {
     EXPECT_EQ(check(stream_of('9', blocks, end + 1)), End::corrupt);
 }
 
-// 2026-11-23: if a move made a block one byte too long, only the next symbol showed it. A stream
-// that was cut before that symbol was reported as cut instead of corrupt.
+// 2026-11-23: if a move made a block one byte too long, only the next symbol showed this error. A
+// stream that was cut before that symbol was reported as cut instead of corrupt.
 TEST_P(OddStreams, ABlockIsTooLongWithTheByteOfAMove) {
     for (const bool is_full : {false, true}) {
         // The symbols are the digits of 100,000 or 99,999 bytes, then a move, and the end.

@@ -11,7 +11,7 @@ namespace {
 using Lengths = std::vector<std::uint8_t>;
 
 // Decodes bit by bit, as the format describes it. The words of one length are consecutive numbers.
-// The first word of the next length is twice the number that follows them.
+// The first word of the next length is twice the number after the last word of the previous length.
 PrefixCode::Word slowly(const Lengths& lengths, std::uint64_t bits) {
     std::uint64_t first = 0;
     for (unsigned length = 1; length <= 20; ++length) {

@@ -98,7 +98,7 @@ void put_block(BitWriter& to, const BlockPlan& block) {
     put_symbols(to, block);
 }
 
-// Hands out the bytes that decide about a stream, and zeros after the last byte.
+// Returns the bytes that determine a stream, one after the other, and then zeros.
 class Choices {
   public:
     explicit Choices(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -1,4 +1,4 @@
-// tests/bunzip/stream_maker.h -- makes bzip2 streams, bit by bit, that no compressor writes.
+// tests/bunzip/stream_maker.h -- makes, bit by bit, bzip2 streams that no compressor writes.
 #pragma once
 
 #include <array>
@@ -37,7 +37,8 @@ struct BlockPlan {
     std::optional<std::uint32_t> stated_selectors;   // none: the number of `selectors`
     std::vector<std::uint16_t> symbols;              // written in the codes of their groups
 };
-// Returns a stream of these blocks. `end` is the checksum at its end; none leaves the end out.
+// Returns a stream of these blocks. `end` is the checksum at the end of the stream. Without `end`,
+// the stream is cut before that checksum.
 [[nodiscard]] Bytes stream_of(char level, std::span<const BlockPlan> blocks,
                               std::optional<std::uint32_t> end);
 
@@ -45,10 +46,10 @@ struct BlockPlan {
 [[nodiscard]] std::uint32_t slow_checksum(std::span<const std::byte> bytes);
 
 // Returns a stream of one block, with the checksums that fit the bytes that libbz2 decodes from it.
-// So the stream is valid if everything else in the block is.
+// So the stream is valid if all other fields of the block are valid.
 [[nodiscard]] Bytes mended_stream(char level, BlockPlan block);
 
-// Returns a valid, odd or nearly valid stream. `choices` determines all of it.
+// Returns a valid, odd or nearly valid stream. `choices` determines every byte.
 [[nodiscard]] Bytes stream_from(std::span<const std::byte> choices);
 
 }  // namespace stormcellar::bunzip

@@ -144,7 +144,8 @@ TEST_F(AccountProtectionTest, OthersGoBeforeAnyHistoryThatIsKnown) {
     EXPECT_THAT(account_.down_to("", 0, 100, {}, Reach::others).size(), 3U);
     // Grids of unknown stations ("others") give room even to an older grid of a known station.
     EXPECT_THAT(*room(name("KTLX", 1), 10), ElementsAre(name("XAAA", 100)));
-    EXPECT_TRUE(room(name("KTLX", -1), 10)) << "grids of others are evicted before this grid";
+    EXPECT_TRUE(room(name("KTLX", -1), 10))
+        << "grids of others are evicted before any grid of KTLX";
 }
 
 TEST_F(AccountProtectionTest, OthersMakeRoomOnlyForOneAnother) {
@@ -154,7 +155,7 @@ TEST_F(AccountProtectionTest, OthersMakeRoomOnlyForOneAnother) {
     EXPECT_TRUE(account_.fits("XAAA", 10, budgets_));
     put("XAAA", 100);
     EXPECT_THAT(*room(name("XBBB", 101), 10), ElementsAre(name("XAAA", 100)));
-    EXPECT_FALSE(room(name("XBBB", 99), 10)) << "this grid would be the oldest grid of others";
+    EXPECT_FALSE(room(name("XBBB", 99), 10)) << "the new grid would be the oldest grid of others";
     EXPECT_FALSE(room(name("XBBB", 101), 11)) << "the grid exceeds the share of others";
     put("KTLX", 10);
     EXPECT_FALSE(room(name("XAAA", 101), 11, Reach::all));
@@ -176,7 +177,7 @@ TEST_F(AccountProtectionTest, OthersHoldATenthOfTheBudgetTogether) {
     account_.reserve("XCCC", 20);
     EXPECT_EQ(account_.used_by_others(), 120U);
     account_.release("XCCC", 20);
-    // With a budget in percent, others may hold a tenth of that share of the file system.
+    // With a budget in percent of the file system, others may hold a tenth of this budget.
     budgets_.total.bytes.reset();
     EXPECT_EQ(account_.others_limit(budgets_), std::nullopt);
     budgets_.total.file_system_percent = 50;

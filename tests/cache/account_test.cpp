@@ -50,7 +50,7 @@ TEST_F(AccountTest, TakesTheOldestOfAllForTheTotalAndOfTheGroupForItsOwn) {
     EXPECT_FALSE(account_.fits("B", 10, budgets_));
     EXPECT_TRUE(account_.fits("B", 0, budgets_));
     // The group's own budget needs 5 bytes, and the total budget 10. A grid that is evicted for one
-    // of the two budgets also gives room in the other.
+    // of the two budgets also gives room in the other budget.
     EXPECT_THAT(*room(grid_named("B", 9), 10), ElementsAre(grid_named("B", 1)));
     EXPECT_THAT(*room(grid_named("B", 9), 20), ElementsAre(grid_named("B", 1), grid_named("B", 3)));
     EXPECT_THAT(*room(grid_named("A", 9), 20), ElementsAre(grid_named("A", 0), grid_named("B", 1)));
@@ -77,7 +77,7 @@ TEST_F(AccountTest, MakesRoomForOldGridsOnlyFromOlderOnes) {
     put("A", 20);
     put("A", 30);
     budgets_.total.bytes = 30;
-    EXPECT_FALSE(room(grid_named("A", 5), 10)) << "this grid would be the oldest";
+    EXPECT_FALSE(room(grid_named("A", 5), 10)) << "the new grid would be the oldest";
     EXPECT_THAT(*room(grid_named("A", 15), 10), ElementsAre(grid_named("A", 10)));
     EXPECT_FALSE(room(grid_named("A", 15), 20));
     // But the only grid of a domain is its newest grid, even if it is old.
@@ -165,7 +165,7 @@ TEST_F(AccountTest, StampsInTheFutureMakeNothingOld) {
     EXPECT_THAT(account_.down_to("A", 0, 100),
                 ElementsAre(grid_named("A", -30), grid_named("A", 0), grid_named("A", 11),
                             grid_named("A", 60 * 24 * 365)));
-    // A minute later, the time of one of them is believable.
+    // A minute later, the time of one of these grids is believable.
     account_.set_now(noon + minutes{1});
     EXPECT_EQ(account_.newest("A"), noon + minutes{11});
     EXPECT_THAT(account_.down_to("A", 0, 100),

@@ -74,7 +74,7 @@ TEST_F(FullDiskTest, WhenNothingMayGoItIsAnErrorToo) {
 }
 
 // After the error no_space, the daemon ingests no files of any station. So a grid of an unknown
-// station must not give that error while known stations can still get room by eviction.
+// station must not give this error while known stations can still get room by eviction.
 TEST_F(FullDiskTest, AGridOfAStationThatNobodyKnowsIsNotKeptAndTakesNothing) {
     budgets_.total.bytes = 1'000'000'000;
     RollingStore store = open(budgets_);

@@ -126,7 +126,8 @@ TEST_F(GridFileTest, TheVersionBeforeIsReadAndALaterOneRefused) {
     format::FileHeader header;
     std::memcpy(&header, bytes.data(), sizeof header);
     EXPECT_EQ(header.version, 2U);
-    // The first record, of 24 bytes, is the name of the source. Record 11 takes its place.
+    // The first record, of 24 bytes, is the name of the source. Record 11 takes the place of this
+    // record.
     const std::array<std::uint32_t, 6> record = {11, 8, 123'456'789, 7, 1, 0};
     std::memcpy(bytes.data() + header.description_offset, record.data(), sizeof record);
     const auto of_version = [&](std::uint32_t version) {

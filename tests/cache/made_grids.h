@@ -26,8 +26,8 @@ inline const UtcTime noon = *parse_utc("2024-11-22T12:00", UtcTime{});
     return {domain, level2::Moment::ref, noon + std::chrono::minutes{minute}};
 }
 
-// Returns a grid of 128 x 16 x 16 cells with 16-bit codes in 8 bricks of 8 KiB. `stored` bricks (1
-// to 8) hold codes, every second brick first, so that runs and holes vary.
+// Returns a grid of 128 x 16 x 16 cells with 16-bit codes in 8 bricks of 8 KiB. `stored` of the
+// bricks (1 to 8) hold codes. Every second brick gets codes first, so that runs and holes vary.
 [[nodiscard]] const grid::BrickGrid& sized_grid(int stored);
 
 // Describes a grid of sized_grid(). Its notes contain `number`, so that files can be told apart.

@@ -32,7 +32,7 @@ struct Promises {
     std::optional<fs::path> pinned;
 };
 
-// Commits more grids of two days than the budget holds, replaces a grid, pins one, and rolls.
+// Commits more grids of two days than the budget holds, replaces a grid, pins a grid, and rolls.
 void live(FileSystem& disk, const fs::path& cache, Promises& promised) {
     auto store = RollingStore::open(disk, cache, budgets());
     if (!store) return;
@@ -60,8 +60,8 @@ std::string note_of(const fs::path& path) {
 }
 
 // Expects that every grid is whole, and that the cache is within its budget now and after the next
-// start. No temporary file may be left after that start. The newest promised grid must exist, as it
-// was promised or replaced by a later grid.
+// start. No temporary file may be left after that start. The newest grid that commit() returned
+// must exist, unchanged or replaced by a later grid.
 void check(const fs::path& cache, const Promises& promised) {
     if (!fs::exists(cache)) return;
     EXPECT_LE(testing::allocated_bytes(cache), budget);
@@ -110,8 +110,8 @@ void live_until(std::uint64_t at, Ending ending) {
     check(directory / "cache", promised);
 }
 
-// The room of a grid is used again only when its removal was synced. Otherwise a power cut would
-// bring the grid back beside the grid that took its room.
+// The room of a removed grid is used again only after the removal was synced. Otherwise a power cut
+// would bring the grid back beside the grid that took its room.
 TEST(RollingPowerCut, LeavesWholeGridsAndTheBudgetAtEachOperation) {
     const std::uint64_t operations = operations_of_a_whole_life();
     ASSERT_GT(operations, 80U);

@@ -39,8 +39,8 @@ class RollingStoreTest : public ::testing::Test {
         EXPECT_TRUE(store) << store.error().message;
         return std::move(*store);
     }
-    // Returns a budget that holds `grids` grids of the usual size, and what a reservation takes in
-    // excess of its file.
+    // Returns a budget for `grids` grids of the usual size, plus the bytes by which a reservation
+    // exceeds its file.
     [[nodiscard]] std::uint64_t room_for(int grids) const {
         return static_cast<std::uint64_t>(grids) * grid_bytes_ + 8 * 4096;
     }
@@ -230,7 +230,7 @@ TEST_F(RollingStoreTest, AStampInTheFutureDoesNotEmptyTheCache) {
     store.roll();
     const auto all = testing::all_grids(store);
     ASSERT_EQ(all.size(), 3U)
-        << "one grid is more than an hour older than the newest believable one";
+        << "one grid is more than an hour older than the newest believable grid";
     EXPECT_EQ(all.front().time, now_ - minutes{50});
 }
 
@@ -247,7 +247,7 @@ TEST_F(RollingStoreTest, GivesWayWhenOthersFillTheDisk) {
     EXPECT_EQ(report.evicted, 6U);
     EXPECT_THAT(report.problems, IsEmpty());
     EXPECT_EQ(grids(store).front(), "A+6");
-    // Others fill the whole disk. The newest grid stays, and a problem is reported.
+    // Other programs fill the whole disk. The newest grid stays, and a problem is reported.
     others_ = capacity_;
     const RollReport last = store.roll();
     EXPECT_THAT(grids(store), ElementsAre("A+9"));
@@ -277,8 +277,8 @@ TEST_F(RollingStoreTest, PinnedGridsStayAndCount) {
     RollingStore store = open(budgets_);
     for (const int minute : {0, 1, 2})
         ASSERT_TRUE(commit(store, "A", minute));
-    // The pin comes as from another process, and the store notices it when it tries to evict the
-    // grid.
+    // The test sets the pin as another process would. The store notices the pin when it tries to
+    // evict the grid.
     ASSERT_TRUE(pin_grid(real_file_system(), path("A", 0)));
     EXPECT_TRUE(testing::all_grids(store).front().pinned);
     for (const int minute : {3, 4})

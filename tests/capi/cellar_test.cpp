@@ -1,4 +1,5 @@
-// Reads catalogs and caches by the C interface, and compares with the C++ library.
+// Reads catalogs and caches by the C interface, and compares the results with those of the C++
+// library.
 #include <climits>
 #include <cstring>
 #include <fstream>

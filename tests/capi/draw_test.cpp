@@ -152,7 +152,7 @@ TEST_F(CDrawOne, PixelsAreInRowsFromTheTop) {
     const std::string light = bytes_of(picture_);
     for (std::size_t alpha = 3; alpha < light.size(); alpha += 4)
         ASSERT_EQ(static_cast<unsigned char>(light[alpha]), 255);
-    // The page is at the corners.
+    // The corners have the background color of the page.
     EXPECT_LT(static_cast<unsigned char>(dark[0]), 60);
     EXPECT_GT(static_cast<unsigned char>(light[0]), 200);
 }
@@ -188,7 +188,7 @@ TEST_F(CDrawOne, WhatCannotBeDrawnIsRefused) {
     refused(set("tilt=40"));
     refused(set("overlay=cells"), STORMCELLAR_UNSUPPORTED);
     options_.product = "ppi";
-    EXPECT_EQ(draw_grid(), STORMCELLAR_BAD_ARGUMENT) << "a ppi is drawn of a volume";
+    EXPECT_EQ(draw_grid(), STORMCELLAR_BAD_ARGUMENT) << "a ppi needs a volume";
     EXPECT_EQ(stormcellar_volume_draw(nullptr, nullptr, nullptr, nullptr),
               STORMCELLAR_BAD_ARGUMENT);
     EXPECT_EQ(stormcellar_picture_bytes(nullptr, nullptr, nullptr), STORMCELLAR_BAD_ARGUMENT);

@@ -1,4 +1,4 @@
-// Grids real volumes by the C interface, and compares every cell with the C++ library.
+// Grids real volumes by the C interface, and compares every cell with that of the C++ library.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

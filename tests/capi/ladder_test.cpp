@@ -1,5 +1,5 @@
-// Measures the accuracy of gridding a real volume by the C interface, and compares with the C++
-// library.
+// Measures, by the C interface, the accuracy of gridding a real volume. Compares the results with
+// those of the C++ library.
 #include "stormcellar/accuracy/ladder.h"
 
 #include <memory>

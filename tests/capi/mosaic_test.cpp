@@ -1,5 +1,5 @@
-// Merges grids and volumes of real radars by the C interface, and compares every cell with the C++
-// library.
+// Merges grids and volumes of real radars by the C interface, and compares every cell with that of
+// the C++ library.
 #include "stormcellar/grid/mosaic.h"
 
 #include <algorithm>
@@ -197,7 +197,7 @@ TEST_F(CMosaic, AMosaicReachesBeyondTheRadars) {
     auto facts = empty_facts<stormcellar_grid_facts>();
     ASSERT_EQ(stormcellar_grid_describe(merged_.get(), &facts, nullptr), STORMCELLAR_OK);
     EXPECT_NEAR(facts.center_latitude_deg, (42.586 + 40.866) / 2, 0.01);
-    EXPECT_EQ(facts.columns, 2 * 19) << "361 km to each side, 230 of them beyond the radars";
+    EXPECT_EQ(facts.columns, 2 * 19) << "361 km to each side, 230 km beyond the radars";
     EXPECT_EQ(facts.rows, 2 * 17);
 }
 
@@ -220,7 +220,7 @@ TEST_F(CMosaic, WhatMakesNoSenseIsRefused) {
     ASSERT_EQ(stormcellar_grid_make(pointers_[2], &options_, &other, nullptr), STORMCELLAR_OK);
     const OwnedGrid smaller(other);
     grid_pointers_[2] = smaller.get();
-    EXPECT_EQ(merge(), STORMCELLAR_BAD_ARGUMENT) << "other cells";
+    EXPECT_EQ(merge(), STORMCELLAR_BAD_ARGUMENT) << "the two grids have different cells";
     EXPECT_EQ(merged_, nullptr);
     grid_pointers_.clear();
     EXPECT_EQ(merge(), STORMCELLAR_BAD_ARGUMENT);

@@ -1,5 +1,5 @@
-// Reads sweeps and moments of real volumes by the C interface, and compares every gate with the C++
-// library.
+// Reads sweeps and moments of real volumes by the C interface, and compares every gate with that of
+// the C++ library.
 #include <atomic>
 #include <cmath>
 #include <cstring>

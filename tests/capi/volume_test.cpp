@@ -236,7 +236,7 @@ TEST(CVolume, DerivingRefusesWhatMakesNoSense) {
     EXPECT_EQ(made, nullptr);
 }
 
-// The example is compiled as C99, and the library exports the functions of the header alone.
+// The example is compiled as C99, and the library exports only the functions of the header.
 TEST(CVolume, TheExampleInCRuns) {
     STORMCELLAR_NEED_DATA();
     const ProgramResult said = run_program(STORMCELLAR_STRONGEST_ECHO, {real_file(storm).string()});
@@ -291,7 +291,7 @@ TEST(CVolume, TheLibraryExportsTheFunctionsOfTheHeaderAlone) {
     for (auto at = header.find("STORMCELLAR_API "); at != std::string::npos;
          at = header.find("STORMCELLAR_API ", at + 1))
         ++declared;
-    // #define STORMCELLAR_API stands there once with a value.
+    // One more occurrence is the definition of STORMCELLAR_API with a value.
     EXPECT_EQ(static_cast<std::size_t>(count) + 1, declared);
 }
 

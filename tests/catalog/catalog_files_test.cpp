@@ -1,5 +1,5 @@
-// Tests opening databases, also by several processes and by readers, and raw files that were
-// deleted.
+// Tests how databases are opened, also by several processes and by readers. Tests raw files that
+// were deleted.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>

@@ -187,7 +187,7 @@ TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     EXPECT_TRUE(*catalog_.is_known("/d/b"));
     ASSERT_TRUE(catalog_.register_file(file("/d/b", {})));
     const auto unknown = catalog_.list("", {std::nullopt, std::nullopt, true}).value();
-    ASSERT_EQ(unknown.size(), 1U) << "reading b deletes its row among unknown files";
+    ASSERT_EQ(unknown.size(), 1U) << "reading b deletes the row of b among unknown files";
     EXPECT_EQ(unknown[0].path, "/d/a");
 }
 

@@ -112,7 +112,8 @@ TEST_F(CheckCatalog, DatabasesOfUnknownStationsAreNamedAndCleared) {
     ASSERT_EQ(check->stations.size(), 5U);
     for (const StationCheck& one : check->stations)
         EXPECT_EQ(one.is_known, !one.station.starts_with('X')) << one.station;
-    ASSERT_EQ(check->troubles.size(), 1U) << "one bad database does not stop the check of others";
+    ASSERT_EQ(check->troubles.size(), 1U)
+        << "one bad database does not stop the check of other databases";
     EXPECT_EQ(check->troubles[0].station, "XDDD");
     EXPECT_FALSE(check->is_sound());
     EXPECT_TRUE(check_catalog(catalog_, "XAAA")->stations[0].is_known)

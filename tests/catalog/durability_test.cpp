@@ -1,5 +1,5 @@
-// Tests the catalog after power cuts and kill -9. It can be opened, is sound, and has every
-// registration that returned success, except files that were only seen.
+// Tests the catalog after power cuts and kill -9. Afterward the catalog can be opened and is sound.
+// It has every registration that returned success, except those of files that were only seen.
 #include <csignal>
 #include <cstdlib>
 #include <iostream>

@@ -17,8 +17,8 @@ class Neighbors : public ::testing::Test {
         ASSERT_TRUE(catalog.register_file(file("/d/KTLX_a", {volume("2022-03-17T00:00")})));
         ASSERT_TRUE(catalog.register_file(file("/d/KFWS_a", {volume("2022-03-17T00:00")}, "KFWS")));
     }
-    // Expects all requests for files of KFWS and of no station to succeed while the database of
-    // KTLX cannot be used.
+    // Expects all requests for files of KFWS, and for files without a station, to succeed while the
+    // database of KTLX cannot be used.
     void expect_that_others_go_on(CatalogWriter& catalog, ErrorCode code) {
         EXPECT_FALSE(*catalog.is_known("/d/KFWS_b"));
         ASSERT_TRUE(catalog.note_file(file("/d/KFWS_b", {}, "KFWS")));
@@ -94,8 +94,9 @@ TEST_F(Neighbors, ADirectoryInPlaceOfADatabaseHoldsNobodyUp) {
     expect_that_it_is_over_with_its_own(catalog);
 }
 
-// 2026-11-24: `sudo stormcellar catalog rebuild` left a database of root, which stopped new files
-// of all other stations. The test needs a process of a user who may not read the database.
+// 2026-11-24: `sudo stormcellar catalog rebuild` left a database that belonged to root. This
+// database stopped new files of all other stations. The test needs a process of a user who may not
+// read the database.
 TEST_F(Neighbors, ADatabaseWithoutPermissionHoldsNobodyUp) {
     if (::geteuid() != 0) GTEST_SKIP() << "only root can become a user without rights";
     fs::permissions(directory_.path(), fs::perms::all);
@@ -145,7 +146,7 @@ TEST_F(Neighbors, ADatabaseThatSomebodyHasLockedHoldsItsOwnStationUpAndOnlyNowAn
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::busy);
     expect_that_nobody_waits("/d/odd", "/d/KFWS_b");
-    // A try would now succeed and end the trouble, but none is made.
+    // Opening the database would now succeed and end the trouble, but nothing tries to open it.
     other.exec("ROLLBACK");
     expect_that_nobody_waits("/d/odd2", "/d/KFWS_c");
 }

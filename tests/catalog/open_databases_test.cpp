@@ -168,7 +168,7 @@ TEST_F(OpenDatabasesTest, ADatabaseThatIsDeletedWhileItIsClosedIsMadeAgainAndSai
 }
 
 // 2026-11-29, by ThreadSanitizer: a thread that gave its lease back read the slot's `file` while
-// another thread with a lease wrote it.
+// another thread with a lease wrote `file`.
 TEST(OpenDatabases, GivingBackALeaseReadsNothingThatAnotherThreadWrites) {
     OpenDatabases databases(1);
     {

@@ -1,5 +1,5 @@
-// Tests that a file's row is searched in few databases, but in all that may have it. A stray is a
-// row in the database of another station than the station in the file's name.
+// Tests that a file's row is searched in few databases, but in every database that may have the
+// row. A stray is a row in the database of another station than the station in the file's name.
 #include "catalog/path_homes.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(GuessedHome, IsTheStationOfTheNameOrOfTheTwoDirectoriesAbove) {
     EXPECT_EQ(guessed_home(""), unknown_station);
 }
 
-// Asks for more paths than are remembered, so that earlier ones are forgotten.
+// Asks for more paths than are remembered, so that earlier paths are forgotten.
 void forget_homes(const CatalogReader& catalog) {
     for (int path = 0; path < 70'000; ++path)
         ASSERT_FALSE(*catalog.is_known("/other/" + std::to_string(path)));
@@ -30,7 +30,8 @@ void forget_homes(const CatalogReader& catalog) {
 TEST_F(CatalogTest, AFileThatIsNamedLikeAnotherStationIsFoundByWhoeverWroteIt) {
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_a", {}, "KOUN")));
     ASSERT_TRUE(catalog_.register_file(file("/d/KTLX_a", {}, "KTLX")));
-    EXPECT_FALSE(*catalog_.is_known("/d/b")) << "all databases were searched, and none has a stray";
+    EXPECT_FALSE(*catalog_.is_known("/d/b"))
+        << "all databases were searched, and no database has a stray";
     ASSERT_TRUE(catalog_.register_file(file("/d/KOUN_b", {}, "KTLX")));
     ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/KOUN_c", {}, "KTLX")}));
     forget_homes(catalog_);
@@ -102,8 +103,8 @@ TEST_F(CatalogTest, AStationThatIsNewSinceTheDatabasesWereListedIsAsked) {
     EXPECT_TRUE(*catalog_.is_known("/d/KOUN_a"));
 }
 
-// A volume that two files hold with the same contents has one row, as long as one of the files
-// holds it.
+// Two files with the same volume have one row. The row stays as long as one of the files holds the
+// volume.
 TEST_F(CatalogTest, AVolumeStaysWhileAnotherFileHoldsIt) {
     ASSERT_TRUE(catalog_.register_file(file("/d/a", {volume("2022-03-17T00:00")})));
     ASSERT_TRUE(catalog_.register_file(file("/d/b", {volume("2022-03-17T00:00")})));

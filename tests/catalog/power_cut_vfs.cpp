@@ -134,7 +134,7 @@ namespace {
 PowerCutVfs& disk_of(sqlite3_vfs* vfs) {
     return *static_cast<PowerCutVfs*>(vfs->pAppData);
 }
-// Returns SQLite's own VFS, on which ours is based.
+// Returns SQLite's own VFS, on which PowerCutVfs is based.
 sqlite3_vfs* below(sqlite3_vfs* vfs) {
     return vfs->pNext;
 }

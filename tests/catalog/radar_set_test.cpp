@@ -86,8 +86,8 @@ TEST_F(RadarSetTest, UnknownNamesAndStationsAreNotFound) {
     EXPECT_EQ(set->radar_file("KBGM20050822_999999.gz").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open(directory_ / "catalog", "KTLX").error().code, ErrorCode::not_found);
     EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
-    // A station whose database cannot be opened does not affect others, and does not count as
-    // unknown.
+    // A station whose database cannot be opened does not affect other stations, and does not count
+    // as unknown.
     fs::create_directory(directory_ / "catalog/KOUN.sqlite");
     EXPECT_EQ(RadarSet::open_all(directory_ / "catalog")->size(), 1U);
     EXPECT_TRUE(RadarSet::open(directory_ / "catalog", "KBGM"));

@@ -36,7 +36,8 @@ FileFacts volume_facts(int number) {
 }
 
 // A process of a user who may not write here, which queries the catalog on request. Make it before
-// this process opens a database, because it must not inherit SQLite's records of open files.
+// the test opens a database, because a child process must not inherit SQLite's records of open
+// files.
 class Reader {
   public:
     explicit Reader(const fs::path& directory) {

@@ -1,5 +1,5 @@
-// Tests the size limits of databases. Rows of deleted files are removed to make room; if there are
-// none, new rows are left out.
+// Tests the size limits of databases. Rows of deleted files are removed to make room. If there are
+// no such rows, new rows are left out.
 #include <gtest/gtest.h>
 
 #include "tests/catalog/catalog_fixture.h"

@@ -1,4 +1,4 @@
-// Runs the program as a user does: `stormcellar accuracy`, and the effects of `grid`.
+// Runs `stormcellar accuracy`, and `stormcellar grid` with options of effects, as a user does.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -226,7 +226,7 @@ TEST(Accuracy, ALadderOfDealiasingNeedsVelocities) {
         << ran.err;
 }
 
-// Scenes know the true fold numbers, so they score the real Nyquist velocity, too.
+// A scene knows the true fold numbers, so dealiasing is scored at the real Nyquist velocity, too.
 TEST(Accuracy, DealiasesASceneOfKnownWind) {
     const testing::TemporaryDirectory directory;
     const std::string scene = directory / "scene.toml";
@@ -268,7 +268,7 @@ peak_dbz = 50
             EXPECT_LT(row["wrong"], 0.001) << row;
         }
         EXPECT_EQ(row["wrong_unmarked"].is_null(), row["ambiguous"] == 1)
-            << "without unmarked gates there is no share of them: " << row;
+            << "without unmarked gates, the share of wrong ones is undefined: " << row;
     }
     const ProgramResult table =
         run({"accuracy", "--velocity", "--scene", scene, "--rounds", "1", "--markdown"});
@@ -387,7 +387,7 @@ TEST_F(Effects, ASoundingFarAboveTheAntennaIsNoted) {
     EXPECT_EQ(noted(880, grid), "");
 }
 
-// 2026-11-21: some of these mistakes were reported as failed work, others as bad usage.
+// 2026-11-21: some of these mistakes were reported as failed work, other mistakes as bad usage.
 TEST_F(Effects, AProfileThatIsNoneIsBadUsage) {
     const auto written = [&](const std::string& name, const std::string& text) {
         const std::string path = (directory_.path() / name).string();

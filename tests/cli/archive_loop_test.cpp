@@ -102,7 +102,8 @@ TEST_F(ArchiveLoop, LeavesOutEchoThatIsNoWeather) {
     const Words weather = {"--quality", "0.5", "--json"};
     ASSERT_EQ(json_of(run_station({"--json"}))["grids_made"], 5);
     const auto all = *read_file(out());
-    EXPECT_EQ(json_of(run_station(weather))["grids_made"], 5) << "in a cache of their own";
+    EXPECT_EQ(json_of(run_station(weather))["grids_made"], 5)
+        << "grids of weather are in a cache of their own";
     EXPECT_NE(*read_file(out()), all);
     EXPECT_EQ(json_of(run_station(weather))["grids_made"], 0);
 }
@@ -203,8 +204,8 @@ TEST_F(ArchiveLoop, ASlipInAStationOrADirectoryIsNamed) {
     EXPECT_FALSE(fs::exists(out()));
 }
 
-// 2026-11-22: the program announced no frames if all volumes had grids. Otherwise it announced all
-// frames of the year, though only two had volumes.
+// 2026-11-22: if all volumes had grids, the program announced no frames. If a volume had no grid,
+// the program announced all frames of the year, though only two frames had volumes.
 TEST_F(ArchiveLoop, SaysHowManyMosaicsAreToBeMade) {
     const Words mosaic = words(
         "--bounds=-77,41,-75,43 --spacing-km 4 --levels-km 1,3,5 --domain south --from 2005-01-01 "

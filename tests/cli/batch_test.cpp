@@ -98,7 +98,7 @@ TEST_F(Batch, SaysByItsStatusWhetherAnotherTryHelps) {
     EXPECT_EQ(batch("run", "p", {"--task", "7"}).status, 2);
     EXPECT_EQ(batch("run", "p", {"--task", "one"}).status, 2);
     EXPECT_EQ(batch("run", "p", {"--task", "1"}).status, 2)
-        << "task 1 makes frames, so run refuses it";
+        << "task 1 makes frames, so run refuses task 1";
     EXPECT_EQ(batch("run", "elsewhere", {"--task", "0"}).status, 1);
     fs::rename(directory_ / "drop", directory_ / "unmounted");
     const ProgramResult away = batch("run", "p", {"--task", "0"});

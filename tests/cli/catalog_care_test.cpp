@@ -1,4 +1,5 @@
-// Runs `stormcellar catalog` as a user does, on files and databases that others have changed.
+// Runs `stormcellar catalog` as a user does, on files and databases that other programs have
+// changed.
 #include <chrono>
 #include <fstream>
 

@@ -65,8 +65,8 @@ class Openings {
     }
     [[nodiscard]] bool come_to(std::size_t count) {
         return testing::eventually([&] {
-            // Events of entries of the directory have names; events of the directory itself have
-            // none.
+            // Events of entries of the directory have names; events of the directory itself have no
+            // name.
             alignas(inotify_event) std::array<char, 4096> events;
             ssize_t size = 0;
             while ((size = ::read(events_.number(), events.data(), events.size())) > 0) {

@@ -97,7 +97,8 @@ TEST_F(FrameFiles, TheGridIsWhereItWasAskedFor) {
     EXPECT_THAT(outside.err, HasSubstr("outside"));
 }
 
-// On the night of 2010-09-11, migrating birds have echo tops. Rain keeps its VIL.
+// Leaving out echo that is not weather removes the echo tops of migrating birds (the night of
+// 2010-09-11), but keeps the VIL of rain.
 TEST_F(FrameFiles, TopsAndVilAreThoseOfWeather) {
     const std::string night = (data_ / "mosaic-northeast" / "KOKX20100911_011047_V03.gz").native();
     const std::string rain = volume("KLBB20160601_150025_V06");

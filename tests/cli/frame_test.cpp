@@ -173,7 +173,7 @@ TEST_F(Frame, NonsenseIsBadUsage) {
     EXPECT_EQ(run("--domain KBGM --width 100 -o " + out("a.png")), exit_bad_usage)
         << "the picture is too small for labels";
     EXPECT_EQ(run("--domain KBGM --width 100 --no-labels -o " + out("a.png")), exit_done);
-    // 2026-11-29: the rung was ignored for grids that had been dealiased by another.
+    // 2026-11-29: the requested rung was ignored for grids that had been dealiased by another rung.
     EXPECT_EQ(run("--domain KBGM --moment VEL --dealias region -o " + out("a.png")),
               exit_bad_usage);
     EXPECT_THAT(messages_, ::testing::HasSubstr("--dealias region is for frames of files"));

@@ -222,7 +222,8 @@ TEST_F(GridTest, QualityLeavesOutEchoThatIsProbablyNoWeather) {
     expect_usage({winter, "--quality", "nan"}, "--quality must be from 0 to 1");
 }
 
-// The plan has a line for each rung of dealiasing, says why it is on, and gives the grid its rung.
+// The plan has a line for each rung of dealiasing and says why the chosen rung is on. The grid is
+// made with this rung.
 TEST_F(GridTest, APlanChoosesTheRungOfDealiasing) {
     STORMCELLAR_NEED_DATA();
     const auto explained = [&](const std::string& path, const Words& more) {

@@ -1,4 +1,4 @@
-// Compares the hail of a mosaic of two simulated radars that see one storm with the hail of each
+// Two simulated radars see one storm. Compares the hail of their mosaic with the hail of each
 // radar.
 #include "cli/picture/hail_mosaic.h"
 

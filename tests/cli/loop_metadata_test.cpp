@@ -45,7 +45,7 @@ TEST_F(Loop, EveryFormatSaysWhatItShowsAndHow) {
         for (const auto& [keyword, text] : png_texts(out(png)))
             texts[png] += keyword + ": " + text + "\n";
         if (std::string(png) == "a/frame_0002.png") continue;
-        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid has none
+        EXPECT_EQ(png_texts(out(png))["Stations"], "");  // this grid names no stations
     }
     for (const auto& [name, text] : texts) {
         SCOPED_TRACE(name);

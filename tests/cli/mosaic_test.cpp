@@ -1,5 +1,5 @@
-// Runs the program as a user does: `stormcellar grid` for several files, and frames compared with
-// volumes that were held out.
+// Runs `stormcellar grid` for several files as a user does, and compares frames with volumes that
+// were held out.
 #include <filesystem>
 #include <map>
 
@@ -42,7 +42,7 @@ TEST_F(Mosaic, HoldsAllSitesInAnyOrder) {
     EXPECT_EQ(one["cells"], other["cells"]);
     EXPECT_EQ(one["time"], other["time"]);
     EXPECT_GT(one["cells"]["value"], 1000);
-    // With both sites, fewer cells are not seen than with one site on the same columns.
+    // Two sites leave fewer cells unseen than one site does on the same columns.
     const Words same_columns = {"--center", "42.5,-75", "--extent-km", "640,640"};
     const auto both = grid({real(bgm), real(enx)}, same_columns);
     const auto alone = grid({real(bgm)}, same_columns);

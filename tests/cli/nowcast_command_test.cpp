@@ -1,4 +1,4 @@
-// Makes nowcasts of real volumes and of a cache, and refuses what has no known motion.
+// Makes nowcasts of real volumes and of a cache. Tests that echo without a known motion is refused.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ class NowcastCommand : public FilesAndService {
         return {"nowcast",          sequence("024414"), sequence("025001"),
                 sequence("025549"), sequence("030243"), sequence("030830")};
     }
-    // Returns the message with which a nowcast of these words is refused.
+    // Returns the message that refuses a nowcast with these arguments.
     [[nodiscard]] static std::string refusal_of(Words words) {
         words.insert(words.begin(), "nowcast");
         const auto refused = run(words);

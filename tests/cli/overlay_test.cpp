@@ -1,4 +1,5 @@
-// Marks storm cells in pictures of files and of a cache, and refuses what cannot have marks.
+// Marks storm cells in pictures of files and of a cache. Tests that pictures that cannot have marks
+// are refused.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -34,7 +35,7 @@ class CellOverlayPictures : public ::testing::Test {
         EXPECT_EQ(ran.status, 0) << ran.err;
         return png_texts(out(output))["Storm cells"];
     }
-    // Returns the message with which a picture is refused.
+    // Returns the message that refuses a picture.
     [[nodiscard]] static std::string refusal(const Words& words) {
         const auto ran = run(words);
         EXPECT_EQ(ran.status, 2) << ran.err;
@@ -62,7 +63,7 @@ TEST_F(CellOverlayPictures, MarkSweepsAndVolumesToo) {
             with({"frame"}, files_, {"--overlay", "cells", "--product", product, "-o", out(file)});
         EXPECT_THAT(sentence(words, file), HasSubstr("followed through 3 volumes")) << product;
     }
-    // A product of hail has freezing levels, and so its cells have MESH.
+    // A product of hail needs freezing levels, so the cells in its picture have MESH.
     EXPECT_THAT(png_texts(out("mesh.png"))["Storm cells"], HasSubstr("0 C at 4200 m"));
     EXPECT_EQ(png_texts(out("ppi.png"))["Storm cells"].find("0 C"), std::string::npos);
 }
@@ -89,7 +90,8 @@ TEST_F(CellOverlayPictures, LoopsAndNowcastsHaveMarks) {
     EXPECT_THAT(soon, HasSubstr("followed through 3 volumes"));
 }
 
-// The first warning is in force in the last two of the three volumes, the second one never.
+// The first warning is in force in the last two of the three volumes, the second warning in no
+// volume.
 constexpr const char* warnings = R"({"type": "FeatureCollection", "features": [
   {"type": "Feature",
    "properties": {"event": "Tornado Warning", "onset": "2005-08-22T02:49:00Z",

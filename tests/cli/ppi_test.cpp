@@ -1,5 +1,5 @@
-// Draws sweeps as the radar saw them, from a whole file, a truncated file and the catalog of a
-// domain, and as loops.
+// Draws sweeps as the radar saw them, also as loops. The sweeps come from a whole file, from a
+// truncated file, and from the catalog of a domain.
 #include <cmath>
 #include <fstream>
 

@@ -1,5 +1,5 @@
-// Tests rain totals of some hours from the grids of a cache, of steady rain whose total is known,
-// and from real volumes.
+// Tests rain totals of some hours: from cached grids of steady rain, whose total is known, and from
+// real volumes.
 #include "cli/picture/rain_sources.h"
 
 #include <chrono>
@@ -104,7 +104,8 @@ TEST_F(RainSources, AMosaicOfTheCacheHasATotal) {
     const auto made = rain_total_of_domain(writer_, "northeast", {.hours = 1});
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(rain_of(*made), "60 minutes");
-    EXPECT_EQ(made->description().time, steady_start + std::chrono::hours(1)) << "of the frame";
+    EXPECT_EQ(made->description().time, steady_start + std::chrono::hours(1))
+        << "the time of the frame";
     EXPECT_NEAR(grid::to_dense(made->view()).values.front(), mm_per_h_, 0.02);
 }
 

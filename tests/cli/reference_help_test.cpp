@@ -163,7 +163,7 @@ TEST_F(ReferenceHelp, ExamplesAreCommandLinesThatTheParserTakes) {
     for (const CommandGuide& guide : command_guides()) {
         for (const CommandExample& example : guide.examples) {
             Words words = words_of(example.line);
-            std::ranges::reverse(words);  // the parser takes them in reverse
+            std::ranges::reverse(words);  // the parser takes words in reverse
             EXPECT_NO_THROW(app_.parse(words)) << example.line;
         }
     }

@@ -1,4 +1,4 @@
-// Draws rotation and its tracks from raw files, and refuses what has none.
+// Draws rotation and its tracks from raw files. Tests that inputs without rotation are refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

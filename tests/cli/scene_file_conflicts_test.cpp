@@ -1,5 +1,5 @@
-// Tests a scene file together with typed options. Some options exclude keys of the file; others
-// override them.
+// Tests a scene file together with typed options. Some options exclude keys of the file; other
+// options override keys.
 #include <utility>
 
 #include <gmock/gmock.h>

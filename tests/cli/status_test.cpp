@@ -1,5 +1,5 @@
 // Tests `stormcellar status` with the real daemon, without a daemon, and with another program on
-// its socket.
+// the daemon's socket.
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -178,7 +178,7 @@ TEST(StatusLoops, OfAProcessOfTheirOwnAreShown) {
     add_loops(document, {});
     EXPECT_EQ(document, none);
 
-    // The daemon's configuration names two loops, but the file has only one of them.
+    // The daemon's configuration names two loops, but the file has only one loop.
     write_file(file, keeper.dump());
     const json two = {
         {"loops",
@@ -224,8 +224,8 @@ TEST(StatusLoops, StandBesideWhatTheDaemonAnswers) {
     EXPECT_EQ(ingest.terminate(), 0) << ingest.log();
 }
 
-// Returns the error of ask_socket() if a server answers with this text; bad_argument if there is
-// none.
+// Returns the error of ask_socket() if a server answers with this text; bad_argument if
+// ask_socket() succeeds.
 ErrorCode code_of_answer(const std::string& answer) {
     const testing::TemporaryDirectory directory;
     const fs::path path = directory / "s";
@@ -271,7 +271,7 @@ TEST(AskSocket, WhoIsNoDaemonIsSeen) {
     EXPECT_EQ(ask_socket("/" + std::string(200, 'x')).error().code, ErrorCode::io);
 }
 
-// 2026-11-25: --json printed names unescaped, and a terminal obeyed U+009B and U+202E in them.
+// 2026-11-25: --json printed names unescaped, and a terminal obeyed U+009B and U+202E in the names.
 TEST(Status, JsonIsAsciiAndSaysTheSame) {
     const testing::TemporaryDirectory directory;
     const std::string name = "a\u009B31m\u202E\u2028\u00E9";

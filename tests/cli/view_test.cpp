@@ -1,4 +1,4 @@
-// Runs `stormcellar view` as a user does, with files, and ends it with Ctrl-C.
+// Runs `stormcellar view` on files as a user does, and ends the program with Ctrl-C.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>

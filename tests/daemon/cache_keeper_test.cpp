@@ -74,7 +74,7 @@ TEST_F(CacheKeeperTest, RollsAtOnceThenEveryFiveSecondsAndTellsNews) {
     sink_.grids = 3;
     usage = next_news(seconds{1});
     ASSERT_TRUE(usage);
-    EXPECT_EQ(usage->grids, 3U) << "the roll before this one found no change";
+    EXPECT_EQ(usage->grids, 3U) << "the previous roll found no change";
 }
 
 TEST_F(CacheKeeperTest, ALongRollHoldsNobodyUpAndRunsOnce) {

@@ -333,7 +333,8 @@ TEST_F(ConfigFile, PathsWithinOneAnotherAreRefused) {
               "directories must be separate");
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/x\"\ncache = \"/x\"\n").substr(0, 9),
               "s.toml:3:");
-    // A directory is not within another directory only because its path begins with the other path.
+    // The text of a path may begin with the text of another path although neither directory is
+    // within the other.
     EXPECT_EQ(complaint("[paths]\ndrop = \"/d\"\nstate = \"/d2\"\ncache = \"/d3\"\n"),
               "no complaint");
 }

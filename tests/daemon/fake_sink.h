@@ -71,8 +71,8 @@ class FakeSink final : public Sink {
         return called_.wait_for(lock, std::chrono::seconds{20},
                                 [&] { return calls_.size() >= count; });
     }
-    // Waits for `count` calls of note(), or until time is up. Returns the files in the order of the
-    // calls.
+    // Waits until there are `count` calls of note() or time is up. Returns the files in the order
+    // of the calls.
     std::vector<std::string> wait_for_noted(std::size_t count) {
         std::unique_lock lock(mutex_);
         called_.wait_for(lock, std::chrono::seconds{20}, [&] { return noted_.size() >= count; });

@@ -54,7 +54,8 @@ TEST_F(Growing, AtTheBoundTheStationThatHasMostGivesWay) {
     EXPECT_TRUE(files_.add_new("a", small, t0, "KTLX"));
     EXPECT_TRUE(files_.contains("a"));
     EXPECT_EQ(files_.take_displaced(), (std::vector<std::filesystem::path>{"x1"}));
-    EXPECT_FALSE(files_.add_new("b", small, t0, "KTLX")) << "KTLX would have as many files";
+    EXPECT_FALSE(files_.add_new("b", small, t0, "KTLX"))
+        << "KTLX would have two files, and two files are of no station";
     EXPECT_EQ(files_.count(), 3U);
     files_.forget("x2");
     EXPECT_TRUE(files_.add_new("b", small, t0, "KTLX"));

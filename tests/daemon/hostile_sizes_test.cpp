@@ -1,5 +1,5 @@
 // Runs the real program on files and directories that could take all memory or time: huge files,
-// and small files that unpack to huge ones.
+// and small files that unpack to huge contents.
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -222,7 +222,7 @@ TEST_F(IntakeTest, WhatCouldNotBeLookedAtIsLookedForSoon) {
     EXPECT_FALSE(intake_.look_again_at());
     EXPECT_FALSE(intake_.needs_scan());
     // After a success, the delay of retries begins at one second again. A missing drop directory
-    // requests no such retry.
+    // requests no retry.
     intake_.begin_scan();
     intake_.end_scan(false);
     EXPECT_FALSE(intake_.look_again_at());

@@ -130,7 +130,7 @@ TEST_F(IntakeTest, WhatGoesOnComesBeforeTheBeginningsOfAllStations) {
     wall_ns_ += second_ns;
     intake_.file_closed(at("KFWS20240101_000500"), make("KFWS20240101_000500"));
     EXPECT_EQ(next(), "KTLX20240101_000000");
-    EXPECT_EQ(next(), "KTLX20240101_000500") << "of the new volumes, this one has waited longest";
+    EXPECT_EQ(next(), "KTLX20240101_000500") << "this volume has waited longest of the new volumes";
     EXPECT_EQ(next(), "KFWS20240101_000500") << "the newest file of its station";
     EXPECT_EQ(next(), "KFWS20240101_000000");
 }
@@ -248,7 +248,7 @@ TEST_F(IntakeTest, AFileThatFailsStaysAndWaits) {
     ASSERT_EQ(next(), "a");
     end("a", fail(ErrorCode::io, "cache: no"));
     EXPECT_EQ(intake_.pending().retrying, 1U);
-    EXPECT_EQ(intake_.pending().waiting, 0U) << "this file must not count as waiting";
+    EXPECT_EQ(intake_.pending().waiting, 0U) << "a file that failed must not count as waiting";
     EXPECT_EQ(next(), "");
     now_ += seconds{1};
     EXPECT_EQ(next(), "a");

@@ -17,8 +17,9 @@ mode_t mode_of(const std::filesystem::path& path) {
     return found.st_mode & 07777;
 }
 
-// 2026-11-25: the mode of the socket was set by name after its creation, which followed a link if
-// somebody had put a link in place of the socket. Now the socket is created with its mode.
+// 2026-11-25: the mode of the socket was set by name after the socket was made. If somebody had put
+// a link in place of the socket, the mode of the link's target was set. Now the socket is created
+// with its mode.
 TEST(ListeningSocket, ItsModeIsThereWhenItStands) {
     const testing::TemporaryDirectory directory;
     const mode_t umask_before = ::umask(0);

@@ -49,7 +49,7 @@ class LogTest : public ::testing::Test {
         return entries;
     }
     // Logs this many lines and returns how many entries arrive. Reads them as they arrive, because
-    // a socket may queue only ten.
+    // a socket may queue only ten entries.
     int count_of(int lines, const std::function<void(int)>& log_line) {
         int entries = 0;
         for (int i = 0; i < lines; ++i) {

@@ -190,7 +190,7 @@ TEST_F(LoopKeeperTest, RestsBetweenItsTurns) {
     EXPECT_TRUE(wait_for([&] { return !keeper_->pulse().since(); }));
 }
 
-// Blocks the thread in the middle of its turn, when it reports news.
+// Blocks the thread in the middle of its turn, when the thread reports news.
 TEST_F(LoopKeeperTest, IsSeenToHangInATurn) {
     std::atomic<bool> hangs = true, is_reporting = false;
     keeper_ = std::make_unique<LoopSupervisor>(

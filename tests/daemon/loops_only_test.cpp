@@ -65,7 +65,8 @@ TEST_F(LoopsOnly, KeepsWhatTheOtherDaemonGrids) {
                                 ingest.drop() / testing::small_sequence[0]);
     ASSERT_TRUE(comes([](const json& s) { return s["loops"]["made"] >= 1; })) << loops_.log();
     EXPECT_GT(fs::file_size(loops_.root() / "out/kbgm.webp"), 1000U);
-    EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true) << "this daemon must not run the loops";
+    EXPECT_EQ(ingest.status()["loops"]["elsewhere"], true)
+        << "the ingesting daemon must not run the loops";
     EXPECT_TRUE(has_metric(ingest, "stormcellar_loop_running{loop=\"binghamton\"} 1\n"));
     ingest.signal(SIGHUP);
     ASSERT_TRUE(ingest.wait_for_log("reloaded")) << ingest.log();

@@ -1,6 +1,6 @@
 // Tests the keeper of directories into which other machines put partials (grids of one site each,
-// from which mosaics are merged). It must take complete partials, wait for incomplete ones, and
-// report machines that bring nothing.
+// from which mosaics are merged). The keeper must take complete partials, wait for incomplete
+// partials, and report machines that bring nothing.
 #include "daemon/partials/partials_keeper.h"
 
 #include <fstream>
@@ -67,7 +67,7 @@ class PartialsKeeperTest : public ::testing::Test {
         return fs::exists(*store_.path_of("north." + partial.station, level2::Moment::ref,
                                           pipeline::minute(partial.minute)));
     }
-    // Waits for this many further whole scans of each directory.
+    // Waits until each directory was scanned as a whole this many more times.
     bool is_scanned_again(std::uint64_t times) {
         const std::uint64_t until = keeper_->scans() + 1 + times;  // one scan may be under way
         return testing::eventually([&] { return keeper_->scans() >= until; });
@@ -138,8 +138,8 @@ TEST_F(PartialsKeeperTest, WhatIsDamagedIsNamedOnceAndTakenWhenItIsReplaced) {
     EXPECT_TRUE(testing::eventually([&] { return is_kept(early); }));
 }
 
-// 2026-11-28: one partial with other codes, or with an impossible position, prevented all frames
-// near its time, and the log blamed honest stations.
+// 2026-11-28: one partial whose codes are not those of its moment, or whose position is impossible,
+// prevented all frames near its time, and the log blamed honest stations.
 TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
     std::vector<std::pair<InventedPartial, std::string>> parts(
         4, {{.minute = 44}, "its codes are not those of REF"});
@@ -162,7 +162,7 @@ TEST_F(PartialsKeeperTest, APartThatNoMergeTakesIsRefused) {
 }
 
 // 2026-11-28: a machine brought partials of 158 invented stations in 40 s, and each frame merged
-// them all.
+// all of these partials.
 TEST_F(PartialsKeeperTest, StationsThatNobodyKnowsAreRefused) {
     const InventedPartial invented{"QAAA", 44, 0, 20}, listed{"QAAB", 44, 0, 20};
     stations_ = {{"north", {"QAAB"}}};
@@ -230,7 +230,7 @@ TEST_F(PartialsKeeperTest, TheSamePartOfTwoMachinesReplacesNothing) {
     bring("south", later);
     ASSERT_TRUE(testing::eventually([&] { return south().taken == 1; }));
     bring("south", later);
-    // The keeper takes the newest partial first, so it takes this partial after all others.
+    // The keeper takes the newest partial first, so it takes first_of_all last.
     bring("south", first_of_all);
     EXPECT_TRUE(testing::eventually([&] { return south().taken == 2; }));
     EXPECT_EQ(north().replaced + south().replaced, 0U);

@@ -75,7 +75,7 @@ TEST(LogLine, SaysWhatItIsAbout) {
     EXPECT_EQ(subject.station, "KTLX");
     EXPECT_EQ(subject.volume, made.taken->ingest.volume_time);
     EXPECT_EQ(subject.file, "/d/a\nb")
-        << "the name is unchanged; the writer of the line escapes it";
+        << "the writer of the line escapes the name, which is unchanged here";
     EXPECT_FALSE(subject.latency_s) << "nobody saw the close";
     EXPECT_DOUBLE_EQ(subject.took_s.value_or(0), 0.08);
     made = finished(IngestResult::rejected);

@@ -159,7 +159,7 @@ TEST(Schedule, WhatIsTriedAgainTakesNoPlaceFromWhatComes) {
         EXPECT_EQ(schedule.offer(job("good" + std::to_string(i))), Offered::queued);
     EXPECT_EQ(schedule.offer(job("more")), Offered::refused);
     EXPECT_EQ(schedule.waiting_count(), 4U);
-    // No more jobs may wait for another attempt; a job that fails now is forgotten.
+    // No further job may wait for another attempt, so a job that fails now is forgotten.
     const auto running = schedule.next(t0);
     EXPECT_FALSE(schedule.retry(*running, t0));
     EXPECT_EQ(schedule.running_count(), 0U);
@@ -385,7 +385,8 @@ TEST(Schedule, SaysSinceWhenTheFirstWaits) {
     schedule.offer(job("b", 9), t0 + seconds{2});
     EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1});
     schedule.offer(job("a", 2), t0 + seconds{3});
-    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1}) << "a merged offer waits as long";
+    EXPECT_EQ(schedule.oldest_offer(), t0 + seconds{1})
+        << "a merged job has waited since its first offer";
     EXPECT_EQ(next_path(schedule, t0 + seconds{4}), "b");
     EXPECT_EQ(next_path(schedule, t0 + seconds{4}), "a");
     EXPECT_FALSE(schedule.oldest_offer());

@@ -263,9 +263,9 @@ TEST_F(ServiceTest, DirectoriesAreCountedAsTheyCome) {
     EXPECT_TRUE(testing::eventually([&] { return status()["directories"] == 1; }));
 }
 
-// 2026-11-22: the start failed if the drop directory was mounted, or became readable, late; systemd
-// gave up after ten starts. 2026-11-28: READY waited for the drop directory, and the data server,
-// the loops, an upgrade of the package and the machine's boot waited for READY.
+// 2026-11-22: the start failed if the drop directory was mounted late or became readable late, and
+// systemd gave up after ten starts. 2026-11-28: READY waited for the drop directory. The data
+// server, the loops, an upgrade of the package and the machine's boot waited for READY.
 TEST_F(ServiceTest, StartsBeforeItsDropDirectoryIsThere) {
     fs::remove(config_.fixed.paths.drop);
     start(always(IngestResult::gridded));

@@ -1,5 +1,5 @@
-// Runs the real program on files of two simulated radars. One of them measures values that are too
-// low.
+// Runs the real program on files of two simulated radars. One of the radars measures values that
+// are too low.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

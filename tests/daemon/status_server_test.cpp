@@ -306,9 +306,9 @@ std::ptrdiff_t open_descriptors() {
     return std::distance(begin(all), end(all));
 }
 
-// 2026-11-25: the kernel queued 16 connections for the server and dropped the others, which tried
-// again after 1 s and after 3 s. At the limit, the server slept, although it had cut connections
-// and so had room for new connections.
+// 2026-11-25: the kernel queued 16 connections for the server and dropped the other connections,
+// which tried again after 1 s and after 3 s. At the limit, the server slept, although it had cut
+// connections and so had room for new connections.
 TEST_F(StatusServerTest, ABurstOfSilentConnectionsDelaysNobody) {
     constexpr int silent = 200;
     StatusServerOptions options = quick();

@@ -160,7 +160,8 @@ TEST(TreeWalk, GoesOnAfterADirectoryThatMayNotBeRead) {
 }
 
 // 2026-11-28: after LDM had removed its empty drop directory and made it again, the service kept
-// watching the removed directory, which a bind mount of its unit preserved, and reported nothing.
+// watching the removed directory, and reported nothing. A bind mount of the service's unit had
+// preserved the removed directory.
 TEST(TreeWalk, ARootThatAMountAloneKeepsIsAnError) {
     if (::unshare(CLONE_NEWNS) != 0) GTEST_SKIP() << "this machine does not allow mounts";
     const testing::TemporaryDirectory directory;

@@ -58,8 +58,8 @@ TEST_F(TriedFilesTest, WhatWasUnderWayWaitsLongerEachTimeAndIsGivenUp) {
     EXPECT_THAT(TriedFiles(file()).waits(), IsEmpty());
 }
 
-// 2026-11-28: if one of several files that ran together ended the process, all these files waited
-// equally long. So they ran together again, until all were given up.
+// 2026-11-28: if one of several files that were ingested together ended the process, all these
+// files waited equally long. So they were ingested together again, until all were given up.
 TEST_F(TriedFilesTest, WhatRanTogetherIsTriedApart) {
     const fs::path bomb = make("bomb"), good = make("good");
     end_under_way(bomb, good);

@@ -281,7 +281,7 @@ TEST_F(RealWatcher, DirectoriesThatAppearAreNoDeeperThanThoseThatAreFound) {
         fs::create_directory(path);
         settle();
     }
-    EXPECT_EQ(watcher_->directory_count(), 17U) << "the drop directory and 16 below it";
+    EXPECT_EQ(watcher_->directory_count(), 17U) << "the drop directory and 16 directories below it";
     EXPECT_EQ(notes_.problems.size(), 1U) << "files below that depth are not reported";
 }
 

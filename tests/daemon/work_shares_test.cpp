@@ -45,7 +45,7 @@ TEST(WorkShares, NoStationHasAllWorkersAlone) {
     }
     EXPECT_FALSE(shares.may_begin("KTLX", t0));
     EXPECT_TRUE(shares.may_begin("KOKX", t0))
-        << "a station without a good file may run if no other does";
+        << "a station without a good file may run if no other such station runs";
 }
 
 // 2026-11-25: 141 files of 1.4 kB, each of a different station, delayed a real file by 15 s.

@@ -1,4 +1,4 @@
-// Parses the placefile of storm cells with a parser of its own, which knows the statements of
+// Parses the placefile of storm cells with the parser of this test, which knows the statements of
 // https://www.grlevelx.com/manuals/gis/files_places.htm and accepts nothing else.
 #include <array>
 #include <map>

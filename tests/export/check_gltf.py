@@ -34,7 +34,7 @@ def read(path):
 
 
 def check_surface(points, value, grid, stretch):
-    """Each point must be in a box of cells with values on both sides, and of which all were seen."""
+    """Each point must be in a box of seen cells, whose values are on both sides of `value`."""
     inside = (grid["REF"][0].filled(-99) >= value)
     seen = np.isin(grid["status"][0], (1, 3))
     x, y, z = (grid[name][:].astype(float) for name in "xyz")
@@ -45,7 +45,7 @@ def check_surface(points, value, grid, stretch):
     of_corners = np.stack([inside[corner] for corner in corners])
     both = of_corners.any(axis=0) & ~of_corners.all(axis=0)
     all_seen = np.stack([seen[corner] for corner in corners]).all(axis=0)
-    # A point on the border of two boxes may be found in the wrong one.
+    # A point on the border of two boxes may be found in the wrong box.
     assert both.mean() > 0.999 and all_seen.mean() > 0.999, (value, both.mean(), all_seen.mean())
 
 

@@ -66,8 +66,8 @@ double distance_of(const Vector& point) {
     return std::hypot(point[0] - 1500.0, point[1] - center_up_m, point[2] + 2000.0);
 }
 
-// Counts how often each edge is used in each direction. In a closed surface it is used once in
-// both.
+// Counts the edges that are not used equally often in both directions. A closed surface has no such
+// edge.
 std::size_t open_edges(const SurfaceMesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (std::size_t at = 0; at < mesh.corners.size(); at += 3) {

@@ -193,7 +193,7 @@ TEST_F(GridNetcdf, DetailsStandBesideTheFieldWhereTheyAreKnown) {
     }
 }
 
-// 2026-11-25: the dimensions were y and x, and readers that look for lat and lon found none.
+// 2026-11-25: the dimensions were y and x, and readers that look for lat and lon did not find them.
 TEST_F(GridNetcdf, ALatitudeLongitudeGridHasTheDimensionsLatAndLon) {
     Grid grid = small_grid();
     grid.spec.projection = grid::Projection::latitude_longitude;

@@ -176,7 +176,7 @@ TEST(GridZarr, ReplacesAZarrGroupButNoOtherDirectory) {
 }
 
 // Whichever operation fails, the old store or the whole new store has the name, and no part of the
-// other is left.
+// store without the name is left.
 TEST(GridZarr, IsWholeOrOldWhateverFails) {
     const grid::Grid grid = small_grid(level2::Moment::ref, 4);
     grid::Grid newer = grid;

@@ -9,7 +9,7 @@
 
 namespace stormcellar::netcdf {
 
-// The codes of one radial. If there are none, the radial lacks the moment.
+// The codes of one radial. If there are no codes, the radial lacks the moment.
 using Row = std::vector<std::uint16_t>;
 
 // Makes a moment that is packed like REF in message 31: gates of 250 m from 2125 m, 8 bits, scale

@@ -11,8 +11,7 @@ namespace stormcellar::cell_export {
 inline constexpr UtcTime cells_time{std::chrono::sys_days{std::chrono::year{2013} / 5 / 20} +
                                     std::chrono::hours{20}};
 
-// Returns a cell that was split off and knows everything, and a new cell that knows nothing but its
-// maximum.
+// Returns a cell that was split off and has all values, and a new cell that has only its maximum.
 inline std::vector<retrieve::TrackedCell> two_tracked_cells() {
     using namespace std::chrono_literals;
     retrieve::TrackedCell known;

@@ -117,7 +117,7 @@ TEST_F(Uf, AllRadialsHaveAllFieldsOnOneRange) {
     EXPECT_EQ(gates_of(1, "DZ"), (Words{1700, 1700, 1700, 1700, -3200, -3200, -3200, -3200}));
     EXPECT_EQ(gates_of(2, "DZ"), Words(4, -3100));
     EXPECT_EQ(gates_of(2, "VR"), Words(4, missing));
-    EXPECT_EQ(gates_of(4, "DZ"), (Words{-3000})) << "as long as the radial";
+    EXPECT_EQ(gates_of(4, "DZ"), (Words{-3000})) << "the field has as many gates as the radial";
     EXPECT_EQ(header_of(1, "DZ", 5), 250);
 }
 

@@ -59,7 +59,7 @@ struct Tried {
 class FailingCalls : public ::testing::TestWithParam<Failure> {
   protected:
     // Delivers a volume in each way, and a file that is not a volume. Two of these deliveries come
-    // before the start, the others after it.
+    // before the start, the other deliveries after the start.
     static Tried run(std::uint64_t at);
 };
 
@@ -123,7 +123,7 @@ Tried FailingCalls::run(std::uint64_t at) {
     return tried;
 }
 
-// Makes $STORMCELLAR_FAILING_TRIES runs. In each run another call fails; these calls are spread
+// Makes $STORMCELLAR_FAILING_TRIES runs. In each run a different call fails; these calls are spread
 // evenly over all calls.
 TEST_P(FailingCalls, NothingIsLost) {
     if (is_sanitized) GTEST_SKIP() << "no other library may be loaded before the sanitizer's";

@@ -2,10 +2,11 @@
 // of their grids.
 //
 // Sixteen stations of the table send simulated volumes at the same time, each station one volume
-// after another. A volume has five sweeps, the lowest with 720 radials, the others with 360. Files
-// are written as LDM does: a record is appended and the file closed, again and again; every fourth
-// station sends one file for each chunk. The latency of a volume is the time from the close of its
-// last piece to the moment at which a reader of the cache finds the grid of the whole volume.
+// after another. A volume has five sweeps, the lowest with 720 radials, the other sweeps with 360.
+// Files are written as LDM does: a record is appended and the file closed, again and again; every
+// fourth station sends one file for each chunk. The latency of a volume is the time from the close
+// of its last piece to the moment at which a reader of the cache finds the grid of the whole
+// volume.
 //
 // Threads   begin() and finish() from one thread; two threads work between them.
 #pragma once
@@ -48,8 +49,8 @@ class RealFeed {
     ~RealFeed();
 
     void begin();
-    // Begins no more volumes, finishes those that have begun, and waits at most `most_wait_s` for
-    // their grids. Returns all volumes that were written.
+    // Begins no further volumes, finishes the volumes that have begun, and waits at most
+    // `most_wait_s` for their grids. Returns all volumes that were written.
     std::vector<RealVolume> finish(double most_wait_s);
     [[nodiscard]] std::size_t begun() const { return begun_; }
 

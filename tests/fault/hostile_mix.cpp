@@ -305,7 +305,7 @@ void HostileMix::strike_chunk() {
     append_bytes(path, records_[volume.station]);
 }
 
-// Renames a directory and renames it back, with everything in it, or gives a file another name.
+// Renames a directory with everything in it and renames it back, or gives a file another name.
 void HostileMix::strike_rename() {
     if (below(8) == 0) {
         fs::path& directory = directories_[below(directories_.size())];

@@ -29,7 +29,7 @@ TEST_F(HostileCases, FilesThatCannotBeGriddedAreSettledAtOnceAndFillNoQueue) {
         names.emplace_back("KTLX_bad" + std::to_string(i));
         put(names.back(), overflowing_bytes(claims_of("KTLX", start_time + milliseconds{i})));
     }
-    // Wait until some files are rejected. All may be rejected before the first look.
+    // Wait until some files are rejected. Perhaps all files are rejected before the first look.
     const std::string at_first = not_rejected(names);
     EXPECT_TRUE(comes_true(15 * slow_down, [&] {
         const std::string now = not_rejected(names);
@@ -45,7 +45,7 @@ TEST_F(HostileCases, FilesThatCannotBeGriddedAreSettledAtOnceAndFillNoQueue) {
 }
 
 // Counts how often files of some directories are opened, except files under a dot-name. The thread
-// of the test reads the events, often enough that the kernel drops none.
+// of the test reads the events, often enough that the kernel drops no events.
 class Openings {
   public:
     Openings() : events_(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC)) {}

@@ -1,5 +1,5 @@
-// Tests the descriptors, databases and grids that files of unknown stations, or of all known
-// stations, take.
+// Tests how many descriptors, databases and grids are taken by files of unknown stations, or of all
+// known stations.
 #include <chrono>
 #include <set>
 #include <string>
@@ -123,7 +123,7 @@ TEST_F(HostileCases, AnInventedStationInsideAMosaicDoesNotEnterIt) {
     stop();
 }
 
-// Tests a file that first names no station, or a known one, and then grows into a volume of an
+// Tests a file that first names no station or a known station, and then grows into a volume of an
 // unknown station.
 TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
     start();

@@ -157,7 +157,7 @@ bool comes_to_rest(const daemon::RunningDaemon& daemon, double seconds) {
     });
 }
 
-// Closes the socket after READY=1. If it stayed open and unread, it could block the daemon.
+// Closes the socket after READY=1, because an open socket that nobody reads could block the daemon.
 double start_until_ready(daemon::RunningDaemon& daemon, const std::string& config) {
     const fs::path path = daemon.root() / "notify";
     fs::remove(path);

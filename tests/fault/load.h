@@ -1,10 +1,9 @@
 // tests/fault/load.h -- writes files into a drop directory during faults.
 //
 // The files are small simulated volumes (message 31, two cuts of 360 radials) of several stations,
-// each with its own time. Some volumes are truncated, and some files are junk. If there are real
-// volumes, these are written, too, under new names. The files are written in all four ways: whole
-// by rename, growing and closed after each piece, growing and kept open, and as one file for each
-// chunk.
+// each with its own time. Some volumes are truncated, and some files are junk. Real volumes, if
+// there are any, are written under new names. Files are written in four ways: whole by rename,
+// growing and closed after each piece, growing and kept open, and as one file for each chunk.
 #pragma once
 
 #include <atomic>
@@ -46,8 +45,8 @@ class Shipments {
     // Returns the next shipment: usually a volume, sometimes a part of a volume, junk or a real
     // volume.
     Shipment next();
-    // Allows shipments that lack chunks. The daemon waits for missing chunks, so such a test takes
-    // longer.
+    // Allows shipments that lack chunks. The daemon waits for missing chunks, so a test with such
+    // shipments takes longer.
     void have_patience() { has_patience_ = true; }
     Shipment volume(Way way);
     Shipment junk();

@@ -1,6 +1,7 @@
 // The daemon merges partials (grids of one site each) of other machines into frames. The tests kill
-// the daemon after it has stored a partial but not yet made the frames, or make its disk fail once
-// at that point. Afterward, the mosaic must have the same bytes as without the fault.
+// the daemon after it has stored a partial but not yet made the frames, or make the disk of the
+// daemon fail once at that point. Afterward, the mosaic must have the same bytes as without the
+// fault.
 #include <cerrno>
 #include <map>
 #include <utility>

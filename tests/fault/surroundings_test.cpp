@@ -187,7 +187,7 @@ TEST_F(Surroundings, DatabasesThatAreDamagedUnderWay) {
     fs::remove(catalog / "XFAD.sqlite");
     deliver_some(8);
     expect_to_catch_up();
-    // SQLite notices an overwritten log when it reads the log, which is after a crash.
+    // SQLite reads the log only after a crash, and notices then that the log was overwritten.
     write_file(catalog / "XFAC.sqlite-wal", std::string(9000, 'x'));
     deliver_some(8);
     expect_to_catch_up();
@@ -210,7 +210,7 @@ TEST_F(Surroundings, ADropDirectoryThatVanishesAndReturns) {
     expect_to_catch_up();
     deliver_some(4);  // events must arrive again
     expect_to_catch_up();
-    // Put another directory in place of the drop directory, and write files into that directory.
+    // Put another directory in place of the drop directory, and write files into the new directory.
     fs::rename(daemon_.drop(), away);
     fs::create_directory(daemon_.drop());
     const std::uint64_t scans = daemon_.running().status()["scans"];

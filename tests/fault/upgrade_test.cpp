@@ -1,5 +1,6 @@
 // Runs the daemon with a configuration and a state of a version that accepted every name of four
-// letters as a station. Both must still work, and the log must say what has changed.
+// letters as a station. The configuration and the state must still work, and the log must say what
+// has changed.
 #include <string>
 
 #include "stormcellar/catalog/catalog.h"

@@ -28,7 +28,7 @@ void check_archive(std::span<const std::byte> file) {
         bytes += member->bytes.size();
     }
     require(bytes <= limits.all_bytes, "{} bytes in all", bytes);
-    // Each archive inside the archive may also have limits.members members.
+    // Each inner archive may also have limits.members members.
     require(names.size() <= limits.members * limits.members, "{} members", names.size());
     require(!reader->next(), "a member behind the last");
 }

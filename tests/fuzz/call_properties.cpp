@@ -156,7 +156,8 @@ void derive(Script& script, Objects& objects, const Files& /*files*/) {
     keep(objects.volumes, made, is_good, script);
 }
 
-// Returns the options of a small grid, or of none. `levels` must outlive them.
+// Returns the options of a small grid, or options that no grid can have. `levels` must outlive the
+// options.
 stormcellar_grid_options small_grid(Script& script, std::array<double, 3>& levels) {
     constexpr int most = std::numeric_limits<int>::max();
     stormcellar_grid_options options{};

@@ -42,7 +42,7 @@ class Script {
 
     [[nodiscard]] bool has_ended() const { return bytes_.empty(); }
     [[nodiscard]] std::span<const std::byte> rest() const { return bytes_; }
-    // Returns a number below `end`. After the end of the bytes, it is 0.
+    // Returns a number below `end`. Returns 0 after the end of the bytes.
     std::size_t below(std::size_t end) {
         if (bytes_.empty()) return 0;
         const auto byte = std::to_integer<std::size_t>(bytes_.front());
@@ -53,12 +53,12 @@ class Script {
     Value pick(const std::array<Value, count>& values) {
         return values[below(count)];
     }
-    // Returns one of the good values, or seldom one of the bad ones, so that most calls succeed.
+    // Returns one of the good values, or seldom one of the bad values, so that most calls succeed.
     template <class Value, std::size_t good_count, std::size_t bad_count>
     Value pick(const std::array<Value, good_count>& good, const std::array<Value, bad_count>& bad) {
         return below(24) == 23 ? pick(bad) : pick(good);
     }
-    // Returns a small number, or seldom one that no array has.
+    // Returns a small number, or seldom a number that is too large for any array.
     std::int32_t number() {
         using Limits = std::numeric_limits<std::int32_t>;
         return pick(std::array{0, 0, 1}, std::array{3, -1, Limits::max(), Limits::min()});
@@ -69,7 +69,7 @@ class Script {
         const bool has_one = !pool.empty() && below(24) != 23;
         return has_one ? pool[below(pool.size())].get() : nullptr;
     }
-    // Sets the size of a struct: mostly the right one, or that of an earlier version.
+    // Sets the size of a struct: mostly the right size, sometimes the size in an earlier version.
     template <class Struct>
     void set_size(Struct& one) {
         constexpr std::size_t whole = sizeof(Struct), pointer = sizeof(void*);
@@ -82,14 +82,14 @@ class Script {
     std::span<const std::byte> bytes_;
 };
 
-// The error of a call. Sometimes there is none.
+// The error of a call. Sometimes the call gets no place for an error.
 class CallError {
   public:
     explicit CallError(Script& script) : is_given_(script.below(8) != 7) {
         std::memset(&error_, 0x5A, sizeof error_);
     }
     [[nodiscard]] stormcellar_error* get() { return is_given_ ? &error_ : nullptr; }
-    // Requires that the error tells the code. Returns true if the call succeeded.
+    // Requires that the error has the code. Returns true if the call succeeded.
     bool check(stormcellar_code code) const {
         require(code != STORMCELLAR_INTERNAL, "a defect: {}", is_given_ ? error_.message : "");
         require(code >= STORMCELLAR_OK && code < STORMCELLAR_INTERNAL, "an unknown code");
@@ -107,7 +107,7 @@ class CallError {
     stormcellar_error error_;
 };
 
-// Keeps the object that a call made; few of them, so that memory stays small.
+// Keeps the object that a call made. Keeps at most five objects, so that memory stays small.
 template <class Kept, class Object>
 void keep(Kept& pool, Object* made, bool is_good, Script& script) {
     require((made != nullptr) == is_good, "an object without success, or success without one");
@@ -119,7 +119,7 @@ void keep(Kept& pool, Object* made, bool is_good, Script& script) {
 }
 
 // Calls a function that fills facts, and requires that it writes no byte beyond their size.
-// Returns the facts if the call succeeded and all of them are known, else a struct of zeros.
+// Returns the facts if the call succeeded and filled all of them, else a struct of zeros.
 template <class Facts, class Describe>
 Facts described(Script& script, const Describe& describe) {
     constexpr unsigned char untouched = 0xA5;

@@ -11,7 +11,7 @@ std::vector<Seed> call_seeds() {
     for (unsigned seed = 1; seed <= 8; ++seed) {
         Random random(seed);
         level2::wire::Bytes bytes(400);
-        // The upper bits of these numbers are more random than the lower ones.
+        // The upper bits of these numbers are more random than the lower bits.
         for (std::byte& byte : bytes)
             byte = static_cast<std::byte>(random() >> 16U);
         seeds.push_back({"random_" + std::to_string(seed), std::move(bytes)});

@@ -34,7 +34,7 @@ struct FuzzCase {
 };
 class Fuzz : public ::testing::TestWithParam<FuzzCase> {};
 
-// Checks each seed, and then more and more mutations of it.
+// Checks each seed, and then more and more mutations of the seed.
 TEST_P(Fuzz, PropertyHolds) {
     const FuzzCase& fuzzed = GetParam();
     for (const Seed& seed : fuzzed.seeds()) {

@@ -70,7 +70,7 @@ Bytes codes_of(const Bytes& file, const Sections& sections, std::size_t brick) {
     return cache::unpack_brick(codes, unpacked) ? unpacked : Bytes{};
 }
 
-// Sets the count, extremes and checksum in `entry` to match the present codes of the brick.
+// Sets the count, extremes and checksum in `entry` to those of the codes that the brick has now.
 void seal_codes(const Bytes& file, const Sections& sections, std::size_t brick, BrickEntry& entry) {
     const Bytes codes = codes_of(file, sections, brick);
     if (codes.empty()) return;
@@ -120,7 +120,7 @@ void put(Bytes& file, std::size_t at, T number) {
     if (at + sizeof number <= file.size()) std::memcpy(file.data() + at, &number, sizeof number);
 }
 
-// Sets a field of the header to an extreme value, or to a value close to the present value.
+// Sets a field of the header to an extreme value, or to a value close to its old value.
 void set_header_field(Bytes& file, Random& random) {
     constexpr std::array<std::uint64_t, 12> extremes = {
         0, 1, 2, 3, 4096, 16384, 1 << 20, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, ~0ULL >> 1, ~0ULL};

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns a grid of two bricks, one above the other. The lower brick has codes; the upper one has
+// Returns a grid of two bricks, one above the other. The lower brick has codes; the upper brick has
 // several states, or only one state.
 grid::Grid two_bricks(bool mixed_above) {
     using grid::CellStatus;

@@ -26,8 +26,8 @@ inline std::size_t below(Random& random, std::size_t limit) {
     return limit == 0 ? 0 : random() % limit;
 }
 
-// These functions return a mutation of their input, of at most `most` bytes. The result may be
-// longer than the input.
+// These functions return a mutation of their input. The mutation has at most `most` bytes, and may
+// be longer than the input.
 [[nodiscard]] Bytes mutate_container(const Bytes& file, std::size_t most, Random& random,
                                      const MutateBytes& mutate);
 // Mutates an input of check_live(): eight bytes that decide the order of arrival, and a file.

@@ -185,8 +185,8 @@ Bytes good_radials(unsigned elevation_number) {
 }
 
 // Requires that good radials before the stream are kept in their order. Sweeps are sorted by time,
-// so sweeps of the stream may come before them. The last good radial may be dropped, because the
-// stream can make it look as if it had lost bytes.
+// so sweeps of the stream may come before the sweeps of the good radials. The last good radial may
+// be dropped, because the stream can make this radial look as if it had lost bytes.
 void require_good_radials_kept(std::span<const std::byte> stream) {
     const Bytes good = good_radials(1);
     const Bytes header = level2::wire::archive_header();

@@ -46,8 +46,8 @@ void check_live(std::span<const std::byte> input);
 // file must expand to itself.
 void check_compress(std::span<const std::byte> file);
 
-// Checks a tar or zip archive. The output is within the limits, names are unique and do not lead
-// out of the archive, and reading ends.
+// Checks a tar or zip archive. Reading ends, and the output is within the limits. Names are unique
+// and do not lead out of the archive.
 void check_archive(std::span<const std::byte> file);
 
 // Checks the bzip2 stream that `choices` determines (stream_from() in tests/bunzip/stream_maker.h).
@@ -65,9 +65,9 @@ void check_grid_file(std::span<const std::byte> file);
 // site. The answer with a file has exactly the bytes that its headers name.
 void check_request(std::span<const std::byte> input);
 
-// Checks calls of the C interface, whose order and arguments the bytes decide. Each call returns a
-// code that its error tells, makes an object if and only if it succeeds, writes only what the
-// caller has room for, and has no defect. Arrays have the promised size.
+// Checks calls of the C interface, whose order and arguments the bytes decide. Each call returns
+// the code of its error, makes an object if and only if it succeeds, and writes only into the
+// caller's room. Arrays have the promised size.
 void check_calls(std::span<const std::byte> script);
 
 // Checks a file of shapes, as GeoJSON and as a placefile. An error has one of the promised codes.

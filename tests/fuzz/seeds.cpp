@@ -27,7 +27,7 @@ Bytes legacy_radials(unsigned count) {
     return all;
 }
 
-// Returns a sweep that comes late: it is a minute older than the others.
+// Returns a sweep that comes late: it is a minute older than the other sweeps.
 Bytes older_sweep() {
     Bytes all;
     for (const unsigned number : {1U, 2U, 3U}) {

@@ -1,5 +1,5 @@
-// tests/fuzz/seeds.h -- makes the small files from which the fuzzers start. They never contain real
-// data.
+// tests/fuzz/seeds.h -- makes the small files from which the fuzzers start. The files never contain
+// real data.
 #pragma once
 
 #include <string>

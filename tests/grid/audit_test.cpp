@@ -91,7 +91,7 @@ TEST(Audit, AFieldThatCellsHoldAuditsToTheQuantisation) {
     EXPECT_GT(row.count, 3000U);
     EXPECT_EQ(row.count, row.sampled);
     EXPECT_LT(row.rms, 0.205) << "rounding of both: sqrt(2) * 0.5 / sqrt(12)";
-    EXPECT_GT(row.rms, 0.144) << "the gates alone are rounded by this";
+    EXPECT_GT(row.rms, 0.144) << "the rounding of the gates alone";
     EXPECT_NEAR(row.mean, 0, 0.01);
 }
 

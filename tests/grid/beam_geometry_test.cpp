@@ -201,8 +201,8 @@ TEST(BeamGeometry, TheSameFormulaInFloatsErrsByATenthOfAMetre) {
     EXPECT_NEAR(worst_m, 0.1, 0.02);
 }
 
-// Uses an independent figure: in every radar textbook's chart, a beam at 0.5 degrees is 5.12 km
-// high at 230 km, over a sphere of 4/3 * 6371 km and a site at sea level.
+// Uses an independent figure from the charts of radar textbooks. For a site at sea level, over a
+// sphere of 4/3 * 6371 km, a beam at 0.5 degrees is 5.12 km high at 230 km.
 TEST(BeamGeometry, AgreesWithTheTextbookChart) {
     const EarthPoint point = BeamGeometry(35, 0).forward({230e3, 0.5});
     EXPECT_NEAR(point.height_m, 5120, 5);

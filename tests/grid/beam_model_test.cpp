@@ -228,7 +228,7 @@ TEST(BeamModel, DifferenceBoundsWhatLiesBetween) {
 }
 
 TEST(BeamModel, DifferenceIsInfiniteWhereABeamIsLost) {
-    // A duct bends this beam into the ground, but on the 4/3 earth it rises.
+    // A duct bends this beam into the ground, but on the 4/3 earth the beam rises.
     const std::vector<RefractivityLevel> levels = {{0, 400}, {1000, 200}, {8000, 90}};
     const BeamModel traced =
         BeamModel::traced(35, 100, RefractivityProfile::from_levels(levels, "duct").value());

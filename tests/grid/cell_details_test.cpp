@@ -55,8 +55,8 @@ struct Tally {
     int seen = 0, compared = 0, partly_seen = 0, undated = 0;
 };
 
-// Returns the largest difference between the detail of a cell (`here`) and of a cell 0.5 m lower or
-// higher.
+// Returns the largest difference between the detail of a cell (`here`) and the detail of a cell 0.5
+// m lower or higher.
 double play(std::optional<double> low, std::optional<double> here, std::optional<double> high) {
     return std::max(std::abs(*low - *here), std::abs(*high - *here));
 }

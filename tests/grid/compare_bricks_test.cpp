@@ -20,7 +20,7 @@ Grid random_grid(unsigned seed, double shift) {
     grid.status.assign(grid.spec.cell_count(), CellStatus::not_seen);
     std::mt19937 random(seed);
     for (std::size_t cell = 0; cell < grid.status.size(); ++cell) {
-        // A third of the columns are not seen, so that some bricks are uniform.
+        // A third of the columns is not seen, so some bricks are uniform.
         if ((cell / grid.spec.levels_m.size()) % 37 > 24) continue;
         grid.status[cell] = static_cast<CellStatus>(random() % 4);
         grid.values[cell] = static_cast<float>(static_cast<double>(cell % 60) + shift);

@@ -50,8 +50,8 @@ TEST(DetectionLimit, IsFiniteAtRangeZero) {
     EXPECT_TRUE(std::isfinite(DetectionLimit{}.at(-500)));
 }
 
-// Compares the limit with the weakest of at least 100 valid gates within 5 km, from 20 km on
-// (closer in, ground clutter and receiver limits dominate).
+// Compares the limit with the weakest valid gate of each ring of 5 km. Leaves out rings with fewer
+// than 100 valid gates, and rings within 20 km, where ground clutter and receiver limits dominate.
 void expect_limit(const char* name, bool is_tdwr) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume(std::string("volumes/") + name);

@@ -69,7 +69,7 @@ TEST(Extrapolation, ByHalfAColumnErrsByLessThanStated) {
         for (int iy = 5; iy < 100; ++iy) {
             if (truth.view().status(ix, iy, 0) != CellStatus::value) continue;
             const float dbz = truth.view().value(ix, iy, 0);
-            if (dbz < 3) continue;  // the edge of the echo, where no echo enters the mean
+            if (dbz < 3) continue;  // edge of the echo: the mean includes cells without echo
             ASSERT_EQ(later->view().status(ix, iy, 0), CellStatus::value) << ix << ", " << iy;
             EXPECT_NEAR(later->view().value(ix, iy, 0), dbz, half_column_db) << ix << ", " << iy;
             ++compared;
@@ -97,7 +97,8 @@ TEST(Extrapolation, FollowsACurve) {
     const auto now = BrickGrid::from(grid, default_quantization(level2::Moment::ref));
     const auto later = extrapolate(now.view(), turn, 3600);
     ASSERT_TRUE(later);
-    // 25 columns to the east become 25 to the north; one step of an hour would miss by 10.
+    // A point 25 columns east of the center turns to 25 columns north of it. One step of an hour
+    // would miss that place by 10 columns.
     ASSERT_EQ(later->view().status(50, 75, 0), CellStatus::value);
     EXPECT_NEAR(later->view().value(50, 75, 0), 40, 0.5);
     EXPECT_EQ(later->view().status(75, 50, 0), CellStatus::no_echo);

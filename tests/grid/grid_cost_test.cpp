@@ -94,7 +94,7 @@ TEST(PredictedCosts, AreSaidOfEveryStepAndOfWhatInterpolationAndExtentTakeTogeth
             ASSERT_TRUE(predict_costs(scene, chain));
             EXPECT_TRUE(accuracy::validate(chain));
             EXPECT_EQ(chain.joint_costs.size(), interpolation_facts.size() - 1)
-                << "one for each interpolation but the cheapest";
+                << "one cost for each interpolation except the cheapest";
             EXPECT_GT(chain.cheapest_cost_s, 0);
             // The costs are a factor of ten apart on a quiet machine, so no load reverses their
             // order.

@@ -25,7 +25,7 @@ struct Cell {
     float dbz = 0;
 };
 
-// Returns a grid with these cells; all others are not seen.
+// Returns a grid with these cells; all other cells are not seen.
 BrickGrid grid_of(const std::vector<Cell>& cells) {
     Grid grid;
     grid.spec = small_spec();

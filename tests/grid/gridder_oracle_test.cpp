@@ -21,8 +21,8 @@ namespace stormcellar::grid {
 namespace {
 
 constexpr double beam_width_deg = 0.95;
-// Tables by arc are accurate to 0.15 m in range and height. A radial's own elevation adds 0.25 m,
-// or 1 m at the edges of the beam.
+// Tables by arc are accurate to 0.15 m in range and height. The elevation of a single radial adds
+// 0.25 m, or 1 m at the edges of the beam.
 constexpr double height_accuracy_m = 1;
 constexpr double weight_accuracy = 2e-3;
 

@@ -206,8 +206,8 @@ TEST(Honesty, EveryEffectThatIsTurnedOnMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const Grid chosen = whole_grid(*prepared, prepared->plan->choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Skip effects that are on because they cost nothing, or as part of the most accurate
-            // choice.
+            // Skip effects that are on because they cost nothing, or because they are part of the
+            // most accurate choice.
             const bool called_for = decision.reason.starts_with("without it") ||
                                     accuracy::is_unbounded(decision.predicted);
             if (!decision.on || !called_for) continue;

@@ -142,7 +142,7 @@ TEST(MosaicBits, GrowsInStripesToTheFullMerge) {
 }
 
 // Damages bricks in which nothing is seen, and bricks that no changed window touches. The merge
-// must read none of them.
+// must read none of these bricks.
 TEST(MosaicBits, ReadsOnlyWhatIsOccupiedAndTouched) {
     Partials partials = random_partials(one_byte, 9);
     const GridSpec& domain = partials.domain();

@@ -19,7 +19,7 @@ namespace {
 
 using level2::Moment;
 
-// Counts the compared cells, so that a test can check that there were enough.
+// Counts the compared cells, so that a test can check that enough cells were compared.
 struct Compared {
     std::array<int, 4> states{};
     int close = 0;

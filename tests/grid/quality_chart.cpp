@@ -16,7 +16,7 @@ namespace {
 
 using grid::CellStatus;
 
-constexpr double azimuth_deg = 40.2;  // neither the azimuth of a radial nor along an axis of a grid
+constexpr double azimuth_deg = 40.2;  // no radial's azimuth, and not along an axis of a grid
 constexpr double cell_m = 1000;
 constexpr double level_m = 500;
 constexpr double plateau_dbz = 40;
@@ -112,7 +112,8 @@ class Places {
     grid::SiteFrame frame_;
 };
 
-// Sums of Z over cells, of Z times a distance from the feature, and of Z times its square.
+// Sums over cells: of Z, of Z times a distance from the feature, and of Z times the squared
+// distance.
 struct Moments {
     double sum = 0;
     std::array<double, 3> first{}, second{};  // along, across, up; km

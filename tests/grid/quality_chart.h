@@ -3,10 +3,10 @@
 //
 // A simulated radar (synth/observe.h, VCP 212) observes one small feature at a range. The radar's
 // gates are points, or means over the beam and the pulse of a WSR-88D. The grid about the feature
-// is compared with the truth in closed form, so the charts contain the effects of both gates and
-// grid. "Along" and "across" refer to the beam. Cells are 1 km wide and 500 m high. Their lattice
-// is shifted by parts of a cell from chart to chart, so that no feature is at the center of a cell
-// by chance. Charts are means over the shifts.
+// is compared with the truth in closed form, so the charts contain the effects of the gates and of
+// the grid. "Along" and "across" refer to the beam. Cells are 1 km wide and 500 m high. Their
+// lattice is shifted by parts of a cell from chart to chart, so that no feature is at the center of
+// a cell by chance. Charts are means over the shifts.
 //
 // Threads   Pure functions.
 #pragma once

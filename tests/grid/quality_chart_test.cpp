@@ -1,5 +1,5 @@
-// Tests what each method does to a point, an edge and a wave (tests/grid/quality_chart.h), with
-// gates sampled at their centers, against limits in closed form. docs/accuracy.md has the whole
+// Tests, against limits in closed form, what each method does to a point, an edge and a wave
+// (tests/grid/quality_chart.h). Gates are sampled at their centers. docs/accuracy.md has the whole
 // table.
 #include "tests/grid/quality_chart.h"
 
@@ -73,8 +73,8 @@ TEST_P(AtRange, TheBeamsPatternSmearsAcrossTheBeam) {
     EXPECT_GT(point_chart(point, by_beam).across_km, point_chart(point, linear).across_km);
 }
 
-// The mean in Z over all gates of a cell preserves the total. Points preserve it only on average,
-// and the mean in dB always loses some.
+// The mean in Z over all gates of a cell preserves the total. Sampling points preserves the total
+// only on average, and the mean in dB always loses a part of it.
 TEST(Conservation, TheMeanInZOverCellsKeepsTheTotal) {
     const Observed point = observe_point(50e3, Gates::of_points);
     const PointChart in_z = point_chart(point, area);

@@ -1,4 +1,4 @@
-// Tests each line of the accuracy in stormcellar/grid/ray_tracer.h, over strata with the hard
+// Tests each accuracy that stormcellar/grid/ray_tracer.h states, over strata with the hard
 // cases: level and falling rays, layers that bend the ray back, high and low antennas, steep beams.
 #include "stormcellar/grid/ray_tracer.h"
 
@@ -106,7 +106,7 @@ void check_strata(const Site& site, const RefractivityProfile& profile, Worst& w
         std::uniform_real_distribution<double> anywhere(0, ray.nodes().back().range_m);
         for (const double range_m : {-1000.0, -10.0, 10.0, 1e3, 3e4, 1e5, 2.3e5, 4.7e5,
                                      anywhere(random), anywhere(random)}) {
-            // The height says little about the range where a level beam turns;
+            // Where a level beam turns, its height says little about its range.
             // ALevelBeamBeginsAsAParabola tests such beams.
             if (range_m < 1e3 && std::abs(elevation_deg) < 0.01) continue;
             check(profile, options, ray, range_m, worst);

@@ -1,4 +1,4 @@
-// Tests profiles of refractivity: their formulas, their limits, and what they refuse.
+// Tests profiles of refractivity: formulas, limits, and input that is refused.
 #include "stormcellar/grid/refractivity.h"
 
 #include <cmath>

@@ -89,7 +89,7 @@ std::optional<std::uint32_t> SlowColumn::nearest_radial(const level2::Sweep& swe
     for (const std::uint32_t radial : chosen.radials) {
         azimuths_deg.push_back(*normal_azimuth(sweep.radials[radial].azimuth_deg));
         const Real turn_deg = turn_to(azimuth_deg, azimuths_deg.back());
-        // If radials have equal azimuths, the later counts.
+        // If two radials have equal azimuths, the later radial counts.
         if (turn_deg >= 0 && turn_deg <= right_deg) {
             right_deg = turn_deg;
             right = radial;

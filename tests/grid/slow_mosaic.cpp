@@ -100,7 +100,7 @@ std::vector<const Partial*> by_name(std::span<const Partial> partials) {
 
 namespace {
 
-// Returns the states that sites see in a cell, without sites that do not see it.
+// Returns the states that sites see in a cell. Leaves out sites that do not see the cell.
 std::vector<Seen> all_seen(const GridSpec& domain, const std::vector<const Partial*>& sorted,
                            const std::vector<long double>& arcs_m, const MosaicOptions& options,
                            int ix, int iy, int iz) {

@@ -15,8 +15,8 @@ struct SlowRay {
     double arc_m = 0;
 };
 
-// Returns the point where a ray that has passed `turns` turning points reaches a height; NaN if it
-// never does. Uses the options' radius, altitude, elevation and kind of range.
+// Returns the point where a ray that has passed `turns` turning points reaches a height; NaN if the
+// ray never reaches the height. Uses the options' radius, altitude, elevation and kind of range.
 [[nodiscard]] SlowRay slow_ray(const RefractivityProfile& profile, const RayOptions& options,
                                int turns, double height_m);
 

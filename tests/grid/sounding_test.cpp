@@ -24,7 +24,7 @@ std::string refusal(const std::string& text) {
 }
 
 // The current ITU-R P.453 has 77.6 Pd / T + 72 e / T + 3.75e5 e / T^2, where Pd is the pressure of
-// the dry air and e is that of the vapor.
+// the dry air and e is the pressure of the vapor.
 TEST(Sounding, RefractivityIsThatOfTheRecommendation) {
     for (const double temperature_c : {-60.0, -20.0, 0.0, 15.0, 30.0, 40.0}) {
         for (const double below_c : {0.0, 3.0, 20.0}) {

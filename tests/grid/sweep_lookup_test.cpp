@@ -79,7 +79,7 @@ class SlowSweep {
 
     [[nodiscard]] Answer at(PolarPoint place) const {
         Answer answer;
-        // The nearest radial on each side.
+        // The nearest radial on each side of the place.
         double before = -400;
         double after = 400;
         std::size_t nearest = used_.front();
@@ -90,7 +90,7 @@ class SlowSweep {
             if (turn > 0) after = std::min(after, turn);
             const double best = turn_deg(place.azimuth_deg,
                                          static_cast<double>(sweep_.radials[nearest].azimuth_deg));
-            // If radials have equal azimuths, the later counts.
+            // If two radials have equal azimuths, the later radial counts.
             if (std::abs(turn) <= std::abs(best)) nearest = i;
         }
         const double off = std::min(after, -before);

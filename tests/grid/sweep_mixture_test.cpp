@@ -26,7 +26,7 @@ TEST(BeamPattern, IsWithinAMillionthOfLongDoubles) {
     }
     EXPECT_EQ(beam_pattern(0, 0.95F), 1);
     EXPECT_NEAR(beam_pattern(0.475F, 0.95F), (0.5 - 0.0625) / 0.9375, 1e-6)
-        << "the pattern is a half there";
+        << "the pattern is one half at this angle";
 }
 
 TEST(ArcTable, ErrsByHalfTheSecondDerivativeTimes250MetresSquared) {

@@ -63,8 +63,8 @@ TEST(FpTrapsDeathTest, OrdinaryArithmeticDoesNot) {
                 well, "");
 }
 
-// There is one piece of work for each thread. Each piece waits for the others, so that the caller
-// cannot do all of them.
+// There is one piece of work for each thread. Each piece waits for the other pieces, so that the
+// caller cannot do all of them.
 TEST(FpTrapsDeathTest, WorkersInheritThem) {
     const auto all_on = [] {
         std::atomic<int> begun{0};

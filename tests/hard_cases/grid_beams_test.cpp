@@ -1,5 +1,5 @@
 // Tests gridding where beams are most difficult. Each test has the name of its hazard, and compares
-// with a closed form or with the oracle.
+// the grid with a closed form or with the oracle.
 #include <algorithm>
 #include <cmath>
 
@@ -134,7 +134,8 @@ TEST(RangeZero, GatesAtAndBehindTheAntennaAreDroppedByEveryMethod) {
 
 // ---- Models of the beam
 
-// A duct bends the lower beams down to the ground, so they see nothing beyond that place.
+// A duct bends the lower beams down to the ground, so they see nothing beyond the place where they
+// meet the ground.
 TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     const std::vector<RefractivityLevel> levels = {{0, 380}, {100, 330}, {1000, 290}, {10000, 90}};
     GridCase given = about(plains, {patchy_plan(-0.3, 1), patchy_plan(0, 2), patchy_plan(0.5, 3),
@@ -149,8 +150,8 @@ TEST(BeamsInADuct, WhatNeverPassesOverAColumnIsNotSeen) {
     }
 }
 
-// In the duct, some beams lose their lower edge to the ground, others lose their upper edge, and
-// some edges cross the center of their beam. Each sweep has one strength of echo, so that the
+// In the duct, some beams lose their lower edge to the ground, other beams lose their upper edge,
+// and some edges cross the center of their beam. Each sweep has one strength of echo, so that the
 // values show the weights of the sweeps.
 TEST(BeamsInADuct, ABeamThatLostAnEdgeIsAsWideAsTheHalfThatIsThere) {
     std::vector<SweepPlan> plans = plans_at({-0.3, 0.2, 0.5, 1.5, 2.4}, patchy_plan());

@@ -65,8 +65,8 @@ using Check = std::function<void(const Method& method, const Grid& grid)>;
 void expect_sound_by_every_method(const GridCase& given, const Agreement& agreement = {},
                                   const Check& check = {});
 
-// Returns the code of smooth echo with patches of no echo and of range folding. It does not depend
-// on the elevation.
+// Returns the code of smooth echo with patches of no echo and of range folding. The code does not
+// depend on the elevation.
 [[nodiscard]] std::uint16_t patchy_code(double azimuth_deg, double range_m);
 // Returns a sweep of 360 radials and 1 km gates to 150 km with patchy_code().
 [[nodiscard]] SweepPlan patchy_plan(double elevation_deg = 0.5, int cut = 1);

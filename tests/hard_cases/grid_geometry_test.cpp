@@ -1,6 +1,6 @@
 // Tests gridding with the most difficult places of columns and cells, and the most difficult
-// azimuths. Each test has the name of its hazard, and compares with a closed form or with the
-// oracle.
+// azimuths. Each test has the name of its hazard, and compares the grid with a closed form or with
+// the oracle.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -163,7 +163,7 @@ TEST(AzimuthDuplicatesAndLosses, AgreeWithTheOracle) {
     GridCase given = about(plains, {patchy_plan(0.5, 1), patchy_plan(1.5, 2)});
     for (level2::Sweep& sweep : given.volume.sweeps) {
         std::vector<level2::Radial>& radials = sweep.radials;
-        radials[20].azimuth_deg = radials[21].azimuth_deg;  // a duplicate, and one lost
+        radials[20].azimuth_deg = radials[21].azimuth_deg;  // one azimuth twice, and one lost
         radials[100].azimuth_deg = radials[101].azimuth_deg = radials[102].azimuth_deg;
         radials[359].azimuth_deg = 360;  // north, written as 360 and not as 0
         radials[200].azimuth_deg = -159.5F;
@@ -260,8 +260,8 @@ TEST(TinyAndHugeCells, OneMetreAndAHundredKilometres) {
     tiny.spec.center_latitude_deg = there.latitude_deg;
     tiny.spec.center_longitude_deg = there.longitude_deg;
     tiny.spec.levels_m = {1500, 1501, 1502};
-    // Either all cells are within 0.25 m of another gate, and so doubtful, or none is. So allow all
-    // cells to be doubtful.
+    // Either all cells are doubtful, because they are within 0.25 m of another gate, or no cell is
+    // doubtful. So allow all cells to be doubtful.
     expect_sound_by_every_method(tiny, {1, 1});
     GridCase huge = about(plains, plans, 3, 100e3);
     huge.spec.center_latitude_deg += 0.13;  // away from the borders of radials

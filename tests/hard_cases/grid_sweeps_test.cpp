@@ -1,5 +1,5 @@
-// Tests gridding by every method of volumes with the most difficult sweeps and radials. Each test
-// has the name of its hazard.
+// Grids, by every method, volumes with the most difficult sweeps and radials. Each test has the
+// name of its hazard.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,8 +70,8 @@ TEST(ReversedElevations, AboutTheHighestLevel) {
     }
 }
 
-// The plan of a tile leaves out a quiet sweep (one without echo) between two quiet sweeps, but must
-// keep it if radials of another sweep are between them.
+// The plan of a tile leaves out a quiet sweep (one without echo) between two quiet sweeps. The plan
+// must keep the sweep in the middle if radials of another sweep are between the two quiet sweeps.
 TEST(ReversedElevations, AmongSweepsOfNoEcho) {
     GridCase given = with_reversed_radials();
     for (const std::size_t quiet : {0U, 1U, 2U}) {
@@ -123,8 +123,8 @@ TEST(TilePlan, LeavesOutOnlyWhatChangesNothing) {
                                 all_methods());
 }
 
-// In the duct, beams cross and some are as wide as several others, so every sweep may count in a
-// cell.
+// In the duct, beams cross, and some beams are as wide as several other beams. So every sweep may
+// count in a cell.
 TEST(TilePlan, LeavesOutNothingThatCountsInADuct) {
     GridCase given = mostly_quiet({-0.3, 0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8});
     given.site.altitude_m = 20;

@@ -1,5 +1,5 @@
-// Tests gridding by every method of values and states that do not mix well. Each test has the name
-// of its hazard, and compares with a closed form.
+// Grids, by every method, values and states that do not mix well. Each test has the name of its
+// hazard, and compares the grid with a closed form.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -139,7 +139,8 @@ TEST(NyquistFold, ANyquistVelocityThatIsNoNumberIsNotKnown) {
 
 // ---- Reflectivity over 100 dB
 
-// A grid of one column 100 km to the east, which is in the middle of a gate of each of two sweeps.
+// A grid of one column 100 km to the east. The column is in the middle of a gate in each of two
+// sweeps.
 struct Pair {
     GridCase given;
     double low_m = 0, high_m = 0;
@@ -205,9 +206,9 @@ TEST(ReflectivityOver100dB, MeansAreThoseOfLongDoubles) {
             }
             const Grid grid = grid_of(pair.given, method, -31, 71);
             ASSERT_EQ(grid.status[0], CellStatus::value);
-            // Heights are accurate to 0.15 m of the 1.7 km between the beams, which is 0.01 dB of
-            // 100 dB. share_of_high() takes the rises of both beams (meters per degree) as equal,
-            // but they differ by up to a hundredth.
+            // Heights are accurate to 0.15 m of the 1.7 km between the beams, so values are
+            // accurate to 0.01 dB of 100 dB. share_of_high() takes the rises of both beams (meters
+            // per degree) as equal, but the rises differ by up to a hundredth.
             const bool by_beam = method.interpolation == Interpolation::beam_weighted;
             EXPECT_NEAR(grid.values[0], static_cast<double>(expected), by_beam ? 0.5 : 0.05)
                 << label(method) << " " << share;
@@ -229,8 +230,8 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
         const Grid grid = grid_of(pair.given, method, -31, 71);
         ASSERT_EQ(grid.status[0], CellStatus::value);
         const auto value = static_cast<double>(grid.values[0]);
-        // The cell has 12 to 14 gates along the beam, and 7 or 8 radials, which are 1.75 km apart,
-        // across.
+        // The cell has 12 to 14 gates along the beam, and 7 or 8 radials across the beam. The
+        // radials are 1.75 km apart.
         const double least =
             method.averaging == Averaging::in_z ? 70 - 10 * std::log10(8 * 14) : -30;
         const double most =
@@ -241,8 +242,8 @@ TEST(ReflectivityOver100dB, OneStrongGateAmongAHundredWeakOnesByArea) {
 }
 
 // A damaged scale makes every value of a sweep infinite or impossible. The gridder ignores the
-// sweep, so the cell at its height is not seen, and the cell at the height of the other sweep has
-// its value.
+// sweep, so the cell at the height of this sweep is not seen. The cell at the height of the other
+// sweep has the value of the other sweep.
 TEST(ValuesBeyondAllReason, AreNoValues) {
     for (const float scale : {1e-38F, -1e-38F, 1e-3F, std::numeric_limits<float>::denorm_min()}) {
         Pair pair = pair_of(all_of(ref_code(40)), all_of(ref_code(10)));
@@ -368,7 +369,8 @@ TEST_P(StatusRule, EveryPairOfStatesUpTheColumnByEveryMethod) {
 }
 
 // The states are side by side within each sweep, so the rule mixes the two radials about a point,
-// or all gates of an area. Radials up to number 90 have one state, and all others the other state.
+// or all gates of an area. Radials up to number 90 have one state, and all other radials the other
+// state.
 TEST_P(StatusRule, EveryPairOfStatesAcrossRadialsByEveryMethod) {
     for (const Mixed& mixed : mixtures_of(GetParam())) {
         if (mixed.low == unseen_code || mixed.high == unseen_code) continue;
@@ -448,8 +450,8 @@ GridCase ambiguous_patches() {
     return given;
 }
 
-// A cell uses gates within 7 km, over which velocities differ by less than 5 m/s. So a cell that is
-// further from the velocity at its place has a value that no gate around it has.
+// A cell uses gates within 7 km, over which velocities differ by less than 5 m/s. So if the value
+// of a cell is 5 m/s or more off the velocity at its place, no gate around the cell has this value.
 TEST(AmbiguousPatches, KeepTheirPlacesAndInventNoVelocityByAnyMethod) {
     const GridCase given = ambiguous_patches();
     expect_sound_by_every_method(given, {}, [&](const Method& method, const Grid& grid) {

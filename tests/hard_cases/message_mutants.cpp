@@ -81,8 +81,8 @@ bool MessageMutants::is_of_one_volume(std::size_t first_message, std::size_t las
     return !first || last - *first <= longest_ms;
 }
 
-// Returns the number of a random message. One in eight is not a radial, if the volume has such
-// messages.
+// Returns the number of a random message. One in eight of these messages is not a radial, if the
+// volume has messages that are not radials.
 std::size_t MessageMutants::any_message(Random& random) const {
     const bool other = random() % 8 == 0;
     std::size_t message = 0;

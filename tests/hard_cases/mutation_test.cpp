@@ -1,7 +1,7 @@
-// Damages real volumes in many ways (container_mutants.h, message_mutants.h) and compares them with
-// the undamaged volumes. An ordinary run makes some mutants of the start and end of each volume.
-// STORMCELLAR_MUTANTS=N makes N mutants of the container of the whole volume, and 10 N mutants of 8
-// MiB of its messages.
+// Damages real volumes in many ways (container_mutants.h, message_mutants.h), decodes them, and
+// compares the results with the undamaged volumes. An ordinary run makes some mutants of the start
+// and end of each volume. STORMCELLAR_MUTANTS=N makes N mutants of the container of the whole
+// volume, and 10 N mutants of 8 MiB of its messages.
 #include <charconv>
 #include <csignal>
 #include <cstdio>
@@ -72,7 +72,7 @@ std::vector<std::byte> bytes_of(const fs::path& path) {
     return fs::is_directory(path) ? joined_files(path) : read_file(path).value();
 }
 
-// Description of the present mutant, which say_current() prints after a crash or a hang.
+// Description of the current mutant, which say_current() prints after a crash or a hang.
 char current[400];
 
 void say_current(int signal_number) {

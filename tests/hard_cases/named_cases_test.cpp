@@ -120,8 +120,8 @@ TEST(Cut, AtEveryByteOfARecordKeepsTheRecordsBefore) {
 // ---- Found by mutants, each in its smallest form
 
 // 2026-11-21, seven legacy volumes: bytes at a wrong place can look like a plausible header, and
-// then the bytes a frame later often do too. The reader took hundreds of frames for messages of
-// unknown types.
+// the bytes a frame later then often look like a header, too. The reader took hundreds of frames
+// for messages of unknown types.
 TEST(FoundByMutants, EightBytesLostCostOneLegacyRadial) {
     Bytes radials;
     for (unsigned i = 0; i < 40; ++i) {

@@ -43,8 +43,8 @@ struct UnpackedVolume {
 // Returns a volume with only the first records and the last record: at most `most_bytes` compressed
 // bytes, but at least three records.
 [[nodiscard]] UnpackedVolume short_records(const UnpackedVolume& whole, std::size_t most_bytes);
-// Returns a plain stream of the metadata without its fill frames, the first messages, and the last
-// few messages.
+// Returns a plain stream of three parts: the metadata without its fill frames, the first messages,
+// and the last few messages.
 [[nodiscard]] UnpackedVolume short_stream(const UnpackedVolume& whole, std::size_t most_bytes);
 
 }  // namespace stormcellar::level2

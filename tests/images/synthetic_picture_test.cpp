@@ -36,8 +36,8 @@ class SyntheticPicture : public ::testing::TestWithParam<std::string> {
     Picture picture_;
 };
 
-// Tests the pictures with a camera. The next classes test those with text around them, and with a
-// map.
+// Tests the pictures with a camera. The next classes test pictures with text around them, and
+// pictures with a map.
 class CameraPicture : public SyntheticPicture {};
 class LabelledPicture : public SyntheticPicture {};
 class SitePicture : public SyntheticPicture {};

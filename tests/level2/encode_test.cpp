@@ -158,7 +158,7 @@ TEST_P(EncodeReal, ComesBackToTheBit) {
 
 // The volumes of message 31 have super-resolution with every moment, come from a TDWR, have trimmed
 // rows or few radials, or are recombined. The volumes of message 1 are from 1991 and 1999, are
-// damaged, are four in a file, or have velocity steps of 1 m/s or gates that vary within a sweep.
+// damaged, come four in a file, or have velocity steps of 1 m/s or gates that vary within a sweep.
 INSTANTIATE_TEST_SUITE_P(
     Volumes, EncodeReal,
     ::testing::Values(

@@ -110,8 +110,8 @@ const std::set<std::string>& prefix_only_fields() {
     return fields;
 }
 
-// Returns false for remarks in the reference, and for fields that it takes from the name of the
-// file. For a damaged file, also returns false for prefix_only_fields().
+// Returns false for remarks in the reference, and for fields that the reference takes from the name
+// of the file. For a damaged file, also returns false for prefix_only_fields().
 bool is_compared(const std::string& field, const Json& golden) {
     static const std::set<std::string> remarks = {
         "sha256", "oddities", "n_oddities", "agreement", "sources", "corruption", "sweeps", "site"};

@@ -18,7 +18,7 @@ std::string outcome_differs(const Result<Decoded>& a, const Result<Decoded>& b) 
                                                   : a.error().message + " / " + b.error().message;
 }
 
-// Returns a file with records of several sizes, one of which has a block with a wrong checksum.
+// Returns a file with records of several sizes. One record has a block with a wrong checksum.
 Bytes damaged_volume() {
     Bytes file = wire::archive_header();
     for (unsigned i = 0; i < 12; ++i) {

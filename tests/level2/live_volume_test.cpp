@@ -111,8 +111,8 @@ Result<Added> add(LiveVolume& volume, const ChunkFile& chunk, seconds at = {}) {
                       LiveVolume::Clock::time_point{at});
 }
 
-// Adds chunks in a random order, of which some are lost and some come twice. Returns the chunks
-// that came, sorted by number.
+// Loses some of the chunks, repeats some of the others, and adds them in a random order. Returns
+// the chunks that were added, sorted by number.
 std::vector<ChunkFile> arrive(LiveVolume& volume, const std::vector<ChunkFile>& chunks,
                               std::mt19937& random, double lost, double repeated) {
     std::uniform_real_distribution<double> chance;
@@ -376,7 +376,8 @@ TEST(LiveVolume, TheFirstHeaderOfANumberIsRemembered) {
     const ChunkFile without_header{{"20220317-000842", 1, ChunkKind::start}, a[1].bytes};
     LiveVolume volume;
     EXPECT_EQ(add(volume, without_header), Added::added);
-    EXPECT_EQ(add(volume, a[0]), Added::worse) << "it has metadata; the present chunk has radials";
+    EXPECT_EQ(add(volume, a[0]), Added::worse)
+        << "the new chunk has only metadata; the chunk that it would replace has radials";
     EXPECT_EQ(add(volume, b[0]), Added::another_volume);
 }
 

@@ -127,7 +127,7 @@ TEST(Message2, EachBuildHasItsFields) {
     const RdaStatus build_18 = of_build(1800, 60);
     EXPECT_EQ(build_18.elevation_correction, false);
     EXPECT_FALSE(build_18.log_data);
-    EXPECT_FALSE(build_18.rho_hv_test) << "its halfwords 41 to 60 are spare";
+    EXPECT_FALSE(build_18.rho_hv_test) << "in build 18, halfwords 41 to 60 are spare";
     EXPECT_EQ(of_build(1900, 60).log_data, false);
     EXPECT_FALSE(of_build(1900, 60).time_series_recording);
     EXPECT_EQ(of_build(2110, 60).time_series_recording, false);

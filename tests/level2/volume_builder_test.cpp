@@ -122,7 +122,7 @@ TEST_F(VolumeBuilderTest, RadialsWithoutTheMomentHaveNoGates) {
     EXPECT_EQ(volume.sweeps[0].moments[0].codes8.size(), 8);
 }
 
-// KBBX20060113 has four volumes in one file, which have lost the radials at their ends.
+// KBBX20060113 has four volumes in one file. The volumes have lost the radials at their ends.
 TEST_F(VolumeBuilderTest, AFallingElevationNumberBeginsAnotherVolume) {
     for (const int number : {1, 2, 3, 1, 2})
         EXPECT_TRUE(add({number}));

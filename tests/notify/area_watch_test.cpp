@@ -63,7 +63,7 @@ TEST_F(AreaOfAStorm, ReportsEachGridOnce) {
     EXPECT_EQ(next->cells[0].id, first->cells[0].id);
 }
 
-// A restart must give the same ids, or it would send the same messages again.
+// After a restart, the cells must have the same ids, or the same messages would be sent again.
 TEST_F(AreaOfAStorm, ARestartGivesTheSameIds) {
     testing::commit_moving_storm(directory_ / "cache", "KTLX", watch_time, 4, 0);
     const auto before = look(watch_time);

@@ -23,7 +23,7 @@ inline constexpr const char* mosquitto_program = "/usr/sbin/mosquitto";
     if (!std::filesystem::exists(testing::mosquitto_program)) \
     GTEST_SKIP() << "the broker mosquitto is not installed (package mosquitto)"
 
-// A certificate for 127.0.0.1, which signs itself, and its key.
+// A self-signed certificate for 127.0.0.1, and its key.
 class BrokerCertificate {
   public:
     BrokerCertificate() {
@@ -92,7 +92,7 @@ class MqttListener {
         EXPECT_EQ(mosquitto_subscribe(client_.get(), nullptr, "#", 1), MOSQ_ERR_SUCCESS);
         EXPECT_TRUE(eventually([&] { return look() && is_subscribed_; }));
     }
-    // Waits until so many messages have come.
+    // Waits until at least `count` messages have come.
     bool has(std::size_t count) {
         return eventually([&] { return look() && messages_.size() >= count; });
     }

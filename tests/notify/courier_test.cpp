@@ -71,7 +71,7 @@ TEST_F(CourierOfARule, OldMessagesAreDroppedAndNotSent) {
     put(0);
     put(10);
     answer_ = fail(ErrorCode::busy, "away");
-    EXPECT_FALSE(step_at(minutes{60})) << "still worth a try";
+    EXPECT_FALSE(step_at(minutes{60})) << "the message is still worth a try";
     EXPECT_EQ(outbox_->waiting(), 2U);
     EXPECT_FALSE(step_at(minutes{61}));
     EXPECT_EQ(outbox_->waiting(), 1U);

@@ -44,7 +44,7 @@ class MqttPeer {
     std::thread thread_;
 };
 
-// Makes OpenSSL trust the certificates of a file alone.
+// Makes OpenSSL trust only the certificates of a file.
 class TrustedCertificates {
   public:
     explicit TrustedCertificates(const std::string& file) {

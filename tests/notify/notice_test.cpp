@@ -88,11 +88,11 @@ TEST(Notices, AllGivenThresholdsMustBeReached) {
 TEST(Notices, OneMessageACellInTheTime) {
     const TrackedCell cell = moving_cell(0, 0, 0, 0);
     const NotifyRule rule = moore_rule();
-    EXPECT_EQ(notices(rule, cell, grid_time).size(), 0U) << "of this grid";
+    EXPECT_EQ(notices(rule, cell, grid_time).size(), 0U) << "the last message was of this grid";
     EXPECT_EQ(notices(rule, cell, grid_time - rule.every + std::chrono::seconds{1}).size(), 0U);
     EXPECT_EQ(notices(rule, cell, grid_time - rule.every).size(), 1U);
     EXPECT_EQ(notices(rule, cell, grid_time + std::chrono::minutes{5}).size(), 0U)
-        << "of a later grid";
+        << "the last message was of a later grid";
 }
 
 TEST(Notices, TheLimitIsThatOfEachCell) {
@@ -157,8 +157,8 @@ TEST(Notices, WhatIsUnknownIsLeftOut) {
     EXPECT_FALSE(text["cell"].contains("assumed_freezing_levels_m"));
 }
 
-// Compares with the closed form for straight motions at every angle: passing by, coming, leaving,
-// and coming closest after the hour.
+// Compares the rule with the closed form for straight motions at every angle: passing by, coming,
+// leaving, and coming closest after the hour.
 TEST(ClosestApproach, AgreesWithStraightMotion) {
     constexpr double pi = 3.14159265358979323846;
     for (const double distance_m : {1'000.0, 30'000.0, 100'000.0}) {

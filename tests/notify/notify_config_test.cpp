@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 
 class NotifyConfigFile : public testing::ConfigFile<load_notify_config> {
   protected:
-    // Returns the complaint about a rule in which `key` has another value, or (an empty value) is
-    // missing.
+    // Returns the complaint about a rule in which `key` has the given value. If the value is empty,
+    // the rule lacks the key.
     std::string complaint_with(const std::string& key, const std::string& value) {
         std::string text = "[[notify.rule]]\n";
         std::map<std::string, std::string> keys = {

@@ -1,4 +1,4 @@
-// From grids in a cache to a server and to a broker, with restarts and full disks.
+// Tests the way from grids in a cache to a server and a broker, with restarts and full disks.
 #include "notify/notify_service.h"
 
 #include <csignal>
@@ -80,7 +80,8 @@ TEST_F(NotifyOfAStorm, TheWebhookGetsOneMessageInTheTime) {
     ASSERT_TRUE(service->turn(now_ + minutes{15}));
     ASSERT_TRUE(has_asked(server, 2));
     ASSERT_TRUE(all_settled("moore"));
-    ASSERT_EQ(server.asked().size(), 2U) << "none between, and none of the other rule";
+    ASSERT_EQ(server.asked().size(), 2U)
+        << "no other message came, and no message of the other rule";
     EXPECT_EQ(sent(server, 0)["rule"], "moore");
     EXPECT_EQ(sent(server, 0)["time"], format_utc(now_));
     EXPECT_EQ(sent(server, 1)["time"], format_utc(now_ + minutes{15}));
@@ -99,7 +100,7 @@ TEST_F(NotifyOfAStorm, ARestartNeitherLosesNorDoublesAMessage) {
     server.forget_asked();
     status = 200;
     service = open();
-    ASSERT_TRUE(has_asked(server, 1)) << "before the service looks at any grid";
+    ASSERT_TRUE(has_asked(server, 1)) << "the message is sent before the service looks at any grid";
     EXPECT_EQ(sent(server, 0)["id"], first["id"]);
     ASSERT_TRUE(all_settled("moore"));
     ASSERT_TRUE(service->turn(now_));
@@ -110,7 +111,7 @@ TEST_F(NotifyOfAStorm, ARestartNeitherLosesNorDoublesAMessage) {
     ASSERT_TRUE(service->turn(now_ + minutes{15}));
     ASSERT_TRUE(has_asked(server, 2));
     EXPECT_EQ(sent(server, 1)["time"], format_utc(now_ + minutes{15}))
-        << "the grids before are within the time";
+        << "the earlier grids are within the time without another message";
 }
 
 TEST_F(NotifyOfAStorm, AFullDiskDelaysAMessage) {

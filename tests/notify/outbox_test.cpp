@@ -1,4 +1,4 @@
-// Messages on disk: restarts, full disks and power cuts.
+// Tests that messages on disk survive restarts, full disks and power cuts.
 #include "notify/outbox.h"
 
 #include <fstream>
@@ -62,7 +62,7 @@ TEST_F(OutboxOnDisk, AFullDiskLeavesNoMessageAndNoRest) {
     ASSERT_FALSE(put);
     EXPECT_EQ(put.error().code, ErrorCode::no_space);
     EXPECT_EQ(outbox->waiting(), 0U);
-    EXPECT_FALSE(outbox->last_of(first_cell)) << "the next turn tries it again";
+    EXPECT_FALSE(outbox->last_of(first_cell)) << "the next turn tries the message again";
     EXPECT_TRUE(std::filesystem::is_empty(directory_ / "box"));
     files_.set_space(1000);
     EXPECT_TRUE(outbox->put(name(0), "{\"n\":0}"));

@@ -23,8 +23,8 @@ struct StormGrid {
 void commit_storm(const std::filesystem::path& cache, const std::string& area, UtcTime time,
                   const StormGrid& storm);
 
-// Writes `count` grids, 5 minutes apart, the last at `newest`. There the storm is `east_km` east of
-// the center.
+// Writes `count` grids, 5 minutes apart, the last at `newest`. In the last grid, the storm is
+// `east_km` east of the center.
 void commit_moving_storm(const std::filesystem::path& cache, const std::string& area,
                          UtcTime newest, int count, double east_km);
 

@@ -113,7 +113,8 @@ TEST_F(ArchiveFillTest, GridsOfWeatherAndOfDealiasedVelocitiesAreThoseOfTheDaemo
         all.moment = weather.moment = moment;
         weather.derived = derived;
         EXPECT_EQ(fill(filled, all).grids_made, 3U);
-        EXPECT_EQ(fill(filled, weather).grids_made, 3U) << "grids of all echo do not stand for it";
+        EXPECT_EQ(fill(filled, weather).grids_made, 3U)
+            << "grids of all echo do not count as grids of weather";
         EXPECT_EQ(fill(filled, weather).grids_made, 0U);
         const auto daemons = *kept.list("KBGM", moment, {}, {});
         ASSERT_THAT(daemons, SizeIs(3));

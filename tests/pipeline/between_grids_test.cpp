@@ -1,5 +1,5 @@
-// Compares mosaics (frames) of instants between grids with synthetic echoes, which are known at any
-// instant.
+// Makes mosaics (frames) of instants between grids, and compares them with synthetic echoes that
+// are known at any instant.
 #include "pipeline/mosaic/between_grids.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Tests volumes of chunks without living grids, and without a cache.
+// Tests volumes of chunks where there are no living grids, or no cache.
 #include <atomic>
 #include <fstream>
 

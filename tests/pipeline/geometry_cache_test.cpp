@@ -11,7 +11,7 @@ const grid::SitePosition near_site{"KBGM", 42.2, -75.98, 500};
 const grid::SitePosition far_site{"PGUA", 13.45, 144.81, 110};
 
 // The cache must not confuse a window that it does not hold with a site out of reach, which has no
-// window. 2026-11-29: it did, so mosaics left out all sites.
+// window. 2026-11-29: the cache confused the two cases, so mosaics left out all sites.
 TEST(GeometryCache, AMissingWindowIsNotAnEmptyOne) {
     const grid::GridSpec domain = small_domain().spec;
     const auto window = grid::site_window(domain, near_site, grid::site_reach_m);

@@ -70,7 +70,7 @@ TEST_F(GrowingSetTest, WhatGoesOnKeepsItsPlaceForAMinute) {
     ASSERT_TRUE(add("e", "KTLX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("b", "c"));
     EXPECT_FALSE(add("f", "KTLX"))
-        << "all members are active: a continues, and the others have just begun";
+        << "all members are active: a continues, and all other members have just begun";
     now_ += Set::most_idle - Set::most_idle_at_first;
     ASSERT_TRUE(grow("d", "KTLX", {}));
     ASSERT_TRUE(grow("e", "KTLX", {}));
@@ -84,8 +84,8 @@ TEST_F(GrowingSetTest, AtTheBoundOfAllTheStationThatHasMostGivesAPlace) {
     ASSERT_TRUE(add("d", "KFWS"));
     EXPECT_TRUE(add("e", "KINX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("a"));
-    // The stations now have two, one and one members. A new station may take a place from the
-    // first, but not from a station with one member.
+    // The stations now have two, one and one members. A new station may take a place from the first
+    // station, but not from a station with one member.
     EXPECT_TRUE(add("f", "KVNX"));
     EXPECT_THAT(set_.take_given_up(), ElementsAre("b"));
     EXPECT_FALSE(add("g", "KAMA"));

@@ -112,7 +112,7 @@ TEST_F(IngestArchiveTest, ACatalogWithMembersIsSound) {
     EXPECT_FALSE(catalog::check_catalog(directory_ / "catalog", "")->is_sound());
 }
 
-// 2026-11-29: the rows of members of the former archive stayed `complete`.
+// 2026-11-29: the rows of members of the replaced archive stayed `complete`.
 TEST_F(IngestArchiveTest, MembersOfAnArchiveThatWasReplacedAreGone) {
     auto members = two_volumes();
     ASSERT_TRUE(ingestor_.ingest(
@@ -186,7 +186,7 @@ TEST_F(IngestArchiveTest, ALongOneIsTakenInByTurns) {
     EXPECT_EQ(by_turns.ingest(path, true)->result(), IngestResult::unchanged);
 }
 
-// 2026-11-29: after a temporary read error, the remaining members were never ingested.
+// 2026-11-29: after a temporary read error, no later member was ever ingested.
 TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
     Ingestor by_turns(catalog_, store_, one_member_a_turn());
     const fs::path path = put_two_volumes();
@@ -208,7 +208,7 @@ TEST_F(IngestArchiveTest, OneThatCannotBeReadForNowIsNotSettled) {
     EXPECT_EQ(grid_count(), 2U);
 }
 
-// 2026-11-28: of five waiting archives, each was closed before its next turn, so none of them made
+// 2026-11-28: of five waiting archives, each was closed before its next turn, so no archive made
 // progress.
 TEST_F(IngestArchiveTest, ManyLongOnesComeToTheirEnds) {
     Ingestor by_turns(catalog_, store_, one_member_a_turn());

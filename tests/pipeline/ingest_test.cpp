@@ -95,7 +95,7 @@ TEST_F(IngestTest, AFileIsNotedUnreadAndThenTakenInAsIfItHadNotBeen) {
     EXPECT_EQ(only_entry("KBGM").state, FileState::gone);
 }
 
-// In the first file, message 2 reports two troubles; in the second file, it reports none.
+// In the first file, message 2 reports two troubles; in the second file, it reports no trouble.
 TEST_F(IngestTest, WhatTheRadarReportsOfItselfStandsInTheGrid) {
     STORMCELLAR_NEED_DATA();
     const auto troubles_of = [&](const std::string& name, const std::string& station) {
@@ -315,7 +315,7 @@ TEST_F(IngestTest, OfTwoWholeFilesOfAVolumeTheSameOneCountsInAnyOrder) {
 
     const auto [kept, left] = counts == 2 ? std::pair{one, other} : std::pair{other, one};
     fs::remove(kept);
-    EXPECT_NE(again(left), counts) << "without the other file, this one counts";
+    EXPECT_NE(again(left), counts) << "without the deleted file, the other file counts";
     write_file(kept.filename(), counts == 2 ? 2 : 3);
     EXPECT_EQ(again(kept), counts);
 }
@@ -371,7 +371,8 @@ TEST_F(IngestTest, FileThatIsGoneIsMarkedSo) {
     EXPECT_EQ(only_entry("KTLX").state, FileState::gone);
 }
 
-// 2026-11-30: such a volume was rejected as too large, because the limit counted a single moment.
+// 2026-11-30: a volume whose KDP alone was wanted was rejected as too large, because the limit
+// counted a single moment.
 TEST_F(IngestTest, KdpAloneMayComeFromAVolumeWhoseMomentsTakeMoreThanOneShould) {
     STORMCELLAR_NEED_DATA();
     IngestOptions options = small_grid();

@@ -28,7 +28,7 @@ TEST_F(LivingChunks, MakeTheVolumeThatTheWholeFileHolds) {
     }
     EXPECT_GT(shown, 5U);
     EXPECT_EQ(take(house_, 0, true).result(), IngestResult::registered)
-        << "this chunk does not represent the volume";
+        << "the first chunk does not represent the volume";
     EXPECT_EQ(take(house_, names_.size() - 2, true).result(), IngestResult::incomplete);
     const IngestOutcome last = take(house_, names_.size() - 1);
     EXPECT_EQ(last.result(), IngestResult::gridded);
@@ -160,8 +160,8 @@ TEST_F(LivingChunks, ALateOneThatDoesNotMakeItWholeIsGriddedToo) {
     ASSERT_EQ(take(house_, names_.size() - 1, true).result(), IngestResult::gridded);
     EXPECT_TRUE(notes().empty()) << "the grid should be final, not living";
     EXPECT_EQ(take(house_, 20).result(), IngestResult::incomplete)
-        << "this chunk represents the volume";
-    EXPECT_TRUE(notes().empty()) << "a living grid must not replace a final one";
+        << "the late chunk represents the volume";
+    EXPECT_TRUE(notes().empty()) << "a living grid must not replace a final grid";
     const IngestOutcome again = take(house_, 20, true);
     EXPECT_EQ(again.result(), IngestResult::gridded);
     EXPECT_NE(again.reason.find("missing chunks: 31"), std::string::npos) << again.reason;
@@ -347,7 +347,8 @@ TEST_F(LivingChunks, AVolumeIsMadeAgainAsItIs) {
 }
 
 // 2026-11-22: the volume was forgotten before it was finished, so that a job that came meanwhile
-// made a second object of it. The failure of one object then overwrote rows of the other.
+// made a second object of the same volume. The failure of one object then overwrote rows of the
+// other object.
 TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
     for (std::size_t i = 0; i + 1 < names_.size(); ++i)
         take(house_, i);
@@ -370,7 +371,7 @@ TEST_F(LivingChunks, WhoComesWhileItIsFinishedDoesNotMakeAnother) {
 }
 
 // 2026-11-22: a chunk that could not be read counted as no chunk, and the other chunks in the
-// directory as missing, so the volume was finished without them.
+// directory counted as missing, so the volume was finished without these chunks.
 TEST_F(LivingChunks, WithoutDescriptorsTheyAreAskedForAgain) {
 #if defined(STORMCELLAR_SANITIZED)
     GTEST_SKIP() << "the sanitizer needs descriptors to check memory";

@@ -164,8 +164,8 @@ TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
     EXPECT_TRUE(made.provenance.partial);
     ASSERT_EQ(made.provenance.notes.size(), 1U);
     EXPECT_TRUE(made.provenance.notes[0].starts_with("living: ")) << made.provenance.notes[0];
-    // The grid has each elevation once: low elevations from the new volume, high ones from the
-    // volume before.
+    // The grid has each elevation once: low elevations from the new volume, high elevations from
+    // the volume before.
     const UtcTime second_start = second.header->time();
     std::size_t fresh = 0;
     for (std::size_t i = 0; i < made.provenance.sweeps.size(); ++i) {
@@ -174,7 +174,7 @@ TEST_F(Living, TheLastVolumeStandsUntilItsSweepsComeAgain) {
         fresh += is_new ? 1 : 0;
         if (i > 0 && is_new) {
             EXPECT_GE(made.provenance.sweeps[i - 1].start, second_start)
-                << "an old sweep at " << sweep.elevation_deg << " degrees below a new one";
+                << "an old sweep at " << sweep.elevation_deg << " degrees below a new sweep";
         }
     }
     EXPECT_GE(fresh, 1U);
@@ -221,7 +221,7 @@ TEST_F(Living, WithoutTimeLowSweepsAreShownAndTheOthersTogetherLater) {
     // (SAILS).
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), shown), 0);
     EXPECT_GT(std::count_if(outcomes.begin(), outcomes.end(), left_out), 0);
-    ASSERT_TRUE(outcomes.back().living_left_out) << "a high last sweep is left out without time";
+    ASSERT_TRUE(outcomes.back().living_left_out) << "without time, a high last sweep is left out";
     EXPECT_TRUE(outcomes.back().living.empty());
     load = Load::light;
     append_to(path, std::span{bytes}.subspan(fs::file_size(path), 1000));

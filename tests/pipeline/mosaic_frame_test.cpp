@@ -146,7 +146,7 @@ TEST(Brackets, AreTheNearestOfEachSiteOnEitherSide) {
     ASSERT_EQ(brackets.size(), 2U);  // KAAA is too late
     EXPECT_EQ(brackets[0].before, 1U);
     EXPECT_EQ(brackets[0].after, 2U);
-    EXPECT_EQ(brackets[1].before, 4U);  // a volume at the instant counts as before it
+    EXPECT_EQ(brackets[1].before, 4U);  // a volume at the instant counts as before the instant
     EXPECT_FALSE(brackets[1].after);
 }
 

@@ -1,4 +1,4 @@
-// Compares mosaics (frames) that are updated whenever a volume comes with mosaics that are merged
+// Updates mosaics (frames) whenever a volume comes, and compares them with mosaics that are merged
 // once from all volumes.
 #include "pipeline/mosaic/mosaic_maker.h"
 

@@ -168,8 +168,8 @@ TEST(MosaicHonesty, EveryEffectOfMosaicsMattersInSomeScene) {
         const accuracy::Plan& plan = prepared->plan->plan;
         const MosaicFrame chosen = frame_of(*prepared, plan.choice);
         for (const accuracy::Decision& decision : plan.decisions) {
-            // Skip effects that were turned on because they cost nothing, or with the most accurate
-            // choice.
+            // Skip effects that were turned on because they cost nothing, or because they are part
+            // of the most accurate choice.
             if (!decision.on || !decision.reason.starts_with("without it")) continue;
             const accuracy::Choice without =
                 testing::forced(plan, prepared->chain, decision.effect, false);

@@ -98,7 +98,7 @@ TEST_F(RebuildCatalog, OfOneStationOnlyFilesThatMayBeItsAreRead) {
     EXPECT_EQ(rebuild_catalog(options_)->registered, 2U);
 }
 
-// 2026-11-24: a database that could not be opened ended the rebuilding of all others.
+// 2026-11-24: a database that could not be opened ended the rebuilding of all other databases.
 TEST_F(RebuildCatalog, ADatabaseThatCannotBeUsedIsNamedAndTheOthersAreRebuilt) {
     fill_drop();
     fs::create_directories(catalog_ / "KAAA.sqlite");

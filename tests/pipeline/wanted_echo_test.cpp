@@ -1,4 +1,4 @@
-// Tests that echo which is probably no weather is left out of all grids that an Ingestor makes.
+// Tests that echo that is probably not weather is left out of all grids that an Ingestor makes.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -53,8 +53,9 @@ class WantedEcho : public SmallHouse {
     }
 };
 
-// Grids of a moment have the cells that `stormcellar grid FILE --quality 0.5` makes. No moment but
-// REF is decoded for its own sake; the others judge.
+// Grids of a moment have the cells that `stormcellar grid FILE --quality 0.5` makes. Of the moments
+// in the file, only REF is wanted. The other moments are decoded to compute VELD and to judge the
+// echo.
 TEST_F(WantedEcho, IsInEachGridOfAFileAndTheNotesGiveTheShare) {
     const fs::path path = testing::real_file(snow);
     const auto outcome = ingestor_.ingest(path, true);
@@ -100,7 +101,7 @@ TEST_F(WantedEcho, IsInMosaicsTooWhoseNotesGiveTheThreshold) {
 
 struct DifferingEcho {
     std::size_t echo = 0;       // gates of reflectivity with echo, left out or not
-    std::size_t differing = 0;  // those that only one of the two volumes has
+    std::size_t differing = 0;  // gates that only one of the two volumes has
 };
 DifferingEcho differing_echo(const level2::Volume& living, const level2::Volume& final,
                              const level2::Volume& all) {
@@ -119,7 +120,7 @@ DifferingEcho differing_echo(const level2::Volume& living, const level2::Volume&
 }
 
 // Lets a file grow by records, reads the living sweeps of REF after each, and compares the last
-// ones with the complete volume.
+// sweeps with the complete volume.
 DifferingEcho grown(const fs::path& path, std::span<const std::byte> bytes) {
     FollowedFile::Options options;
     options.scratch = path.parent_path();
@@ -174,7 +175,8 @@ TEST_F(Living, WithoutDualPolarizationASweepIsJudgedWithoutTheSweepAbove) {
     EXPECT_LE(share, 0.1);
 }
 
-// The second volume shows sweeps of the first that have not come again, without the same echo.
+// The second volume shows sweeps of the first volume that have not come again. The same echo is
+// left out of them.
 TEST_F(Living, TheFinalGridsOfWeatherDoNotDependOnTheGrowth) {
     const std::vector<Moment> moments = {Moment::ref, Moment::veld};
     House growing(directory_ / "growing", true, {}, moments, least);

@@ -1,4 +1,4 @@
-"""Measures the accuracy of gridding in Python, and compares with the command line."""
+"""Measures the accuracy of gridding in Python, and compares the results with those of the command line."""
 
 import importlib.util
 import json

@@ -112,8 +112,8 @@ class Archives(unittest.TestCase):
                         self.assert_same(archive[f"/VCP-{pattern}/sweep_{number}"], 0, datasets[f"/sweep_{number}"])
 
     def test_repeated_and_dropped_sweeps_keep_their_places(self):
-        """The largest volume has every sweep. Volumes of as many sweeps differ in where they repeat the low ones. A
-        sweep must not depend on those that were read before it."""
+        """The largest volume has every sweep. Volumes with equally many sweeps repeat the low sweeps at different
+        places. A sweep must not depend on the sweeps that were read before it."""
         volumes = {
             0: [LOW, LOW_DOPPLER, MIDDLE, LOW, LOW_DOPPLER, HIGH, LOW],
             1: [LOW, LOW_DOPPLER, MIDDLE, HIGH],
@@ -232,7 +232,7 @@ class Archives(unittest.TestCase):
         self.assert_same(group, 2, stormcellar.open_volume(files[2], sort=False)["/sweep_1"])
 
     def test_a_sweep_without_a_group_warns(self):
-        """Opening looks at the newest and the oldest of volumes of one size, not at those between them."""
+        """Of volumes with equally many sweeps, opening reads only the newest and the oldest."""
         middle = {"elevation_deg": 7}
         files = [simulate(self.folder, minute, [LOW, cut]) for minute, cut in enumerate((HIGH, middle, HIGH))]
         archive = stormcellar.open_archive(make_catalog(self.folder, files), "XSYN")

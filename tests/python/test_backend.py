@@ -69,7 +69,8 @@ class PyArt(unittest.TestCase):
             if path == BUSY:  # Py-ART knows no place of a radar of 1999
                 self.assertAlmostEqual(float(ours.latitude["data"][0]), float(theirs.latitude["data"][0]), 3)
             for name in theirs.fields:
-                # Py-ART interpolates the reflectivity of 1999, whose gates are longer than the others.
+                # Py-ART interpolates the reflectivity of 1999, because its gates are longer than
+                # those of other moments.
                 if path == BUSY or name != "reflectivity":
                     compare_field(self, ours, theirs, name)
 

@@ -1,4 +1,4 @@
-"""Reads catalogs and caches in Python that the command line has made."""
+"""Reads, in Python, catalogs and caches that the command line has made."""
 
 import os
 import pathlib

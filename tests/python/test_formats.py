@@ -41,7 +41,7 @@ def has(module):
 
 
 def exact(kind):
-    """Returns the values of one kind of gates in double precision, NaN where there is none."""
+    """Returns the values of one kind of gates in double precision; NaN for a gate without a value."""
     codes = kind.codes().astype(float)
     values = codes if kind.scale == 0 else (codes - kind.offset) / kind.scale
     return np.where(kind.states() == VALUE, values, np.nan)
@@ -186,7 +186,7 @@ class Odim(Formats):
                             left = [other for other in left if other is not kind]
                             self.close(dataset["range"][:kind.shape[1]], kind.ranges_m[:dataset.sizes["range"]])
                             found, wanted = dataset[FM301[kind.name]].values, exact(kind)[order]
-                            # xradar gives the value of code 0 to what is below the threshold.
+                            # xradar gives the value of code 0 to gates below the threshold.
                             found = np.where(found == scaled(kind)[1], np.nan, found)
                             width = min(found.shape[1], wanted.shape[1])
                             self.close(found[:, :width], wanted[:, :width], 1e-9)
@@ -420,7 +420,7 @@ class Uf(Formats):
                     self.assertEqual(radar.nsweeps, len(volume.sweeps))
                     self.close(radar.azimuth["data"], np.concatenate([s.radials["azimuth_deg"] for s in volume.sweeps]),
                                1 / 128)
-                    # Py-ART takes the range of the first gate for its near edge.
+                    # Py-ART takes the range in the file for the near edge of the first gate.
                     ranges = radar.range["data"] - radar.range["meters_between_gates"] / 2
                     for sweep, rows in zip(volume.sweeps, radar.iter_slice()):
                         for moment, kind in sweep.moments.items():

@@ -1,4 +1,4 @@
-"""Reads volumes from lists of chunks, and from a bucket: a server on this machine in the layout of the public one."""
+"""Reads volumes from lists of chunks, and from a bucket: a server on this machine in the layout of the public bucket."""
 
 import contextlib
 import datetime

@@ -94,7 +94,7 @@ class Volumes(unittest.TestCase):
                 for sweep in volume.sweeps:
                     for moment in sweep.kinds:
                         moment.values()
-            except Exception as error:  # a thread must not lose it
+            except Exception as error:  # a thread must not lose an error
                 failures.append(error)
 
         threads = [threading.Thread(target=read) for _ in range(4)]
@@ -110,7 +110,7 @@ def compare_with_golden(case, golden):
     told = json.loads(golden.read_text())
     files = [path for folder in ("volumes", "sequence-kbgm", "mosaic-northeast")
              for path in (pathlib.Path(DATA) / folder).glob(told["file"] + "*")]
-    if not files or told["corruption"]:  # other readers end there
+    if not files or told["corruption"]:  # other readers end at the damage
         return 0
     volumes = [stormcellar.Volume(files[0])]
     volumes += [stormcellar.Volume(files[0], volume=i) for i in range(2, volumes[0].volumes + 1)]

@@ -88,8 +88,9 @@ double length_of(const BeamGlyph& glyph) {
     return std::hypot(glyph.tip.x - glyph.gate.x, glyph.tip.y - glyph.gate.y);
 }
 
-// The wind blows away from the radar on one side of it and toward it on the other, as in a uniform
-// flow, but at two speeds alone. The maps are about the radar and about a place 150 km off.
+// As in a uniform flow, the wind blows away from the radar on one side and toward the radar on the
+// other side. The wind has only one speed on each side. The maps are about the radar and about a
+// place 150 km off.
 TEST(BeamGlyphs, PointAlongTheBeamToWhereTheAirGoes) {
     for (const auto& [latitude_deg, longitude_deg] : {std::pair{35.0, -97.0}, {34.0, -98.0}}) {
         const SweptMap map([](int radial, int) { return velocity_code(radial < 180 ? 20 : -10); },
@@ -100,7 +101,7 @@ TEST(BeamGlyphs, PointAlongTheBeamToWhereTheAirGoes) {
             const grid::PolarPoint place = map.place_of(view, glyph.gate);
             ASSERT_EQ(glyph.speed_mps, place.azimuth_deg < 180 ? 20 : -10);
             EXPECT_NEAR(length_of(glyph), glyph_length(std::abs(glyph.speed_mps), 1), 1e-9);
-            // Ten kilometers farther along the beam is where air that moves away goes.
+            // Air that moves away goes to the place that is ten kilometers farther along the beam.
             const Point beyond = map.pixel_of(view, {place.azimuth_deg, place.arc_m + 10e3});
             const double wanted = std::atan2(beyond.y - glyph.gate.y, beyond.x - glyph.gate.x);
             const double drawn = std::atan2(glyph.tip.y - glyph.gate.y, glyph.tip.x - glyph.gate.x);
@@ -115,8 +116,8 @@ TEST(BeamGlyphs, PointAlongTheBeamToWhereTheAirGoes) {
     EXPECT_NEAR(glyph_length(20, 3), 3 * glyph_length(20, 1), 1e-12);
 }
 
-// Each kind of gate without a velocity covers a sector. No glyph is there, and no pixel of the
-// sectors differs from the picture without glyphs, except where a line reaches in from outside.
+// Each kind of gate without a velocity covers a sector. The sectors have no glyphs, and no pixel of
+// the sectors differs from the picture without glyphs, except where a line reaches in from outside.
 TEST(BeamGlyphs, AreOnlyWhereTheVelocityIsKnown) {
     const auto is_unknown = [](double azimuth_deg) { return azimuth_deg < 180; };
     const SweptMap map([&](int radial, int) {
@@ -190,7 +191,7 @@ TEST(BeamGlyphs, ACalmHasADotAndNoHead) {
     EXPECT_NE(map.draw(map.scene(true)).rgba, map.draw(map.scene(false)).rgba);
 }
 
-// Even winds of 90 m/s leave room between the glyphs, and none is under a mark of the map.
+// Even winds of 90 m/s leave room between the glyphs, and no glyph is under a mark of the map.
 TEST(BeamGlyphs, DoNotOverlap) {
     for (const double mps : {3.0, 25.0, 90.0}) {
         const SweptMap map([&](int, int) { return velocity_code(mps); });

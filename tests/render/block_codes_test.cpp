@@ -12,8 +12,8 @@
 namespace stormcellar::render {
 namespace {
 
-// Returns random codes of a brick. Some rows have no values; in the others, a third of the cells
-// have values. One cell has the largest code.
+// Returns random codes of a brick. Some rows have no values; in the other rows, a third of the
+// cells have values. One cell has the largest code.
 template <class Code>
 std::vector<Code> random_codes(unsigned seed) {
     std::mt19937 random(seed);

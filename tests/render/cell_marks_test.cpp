@@ -162,7 +162,7 @@ TEST(CellMarks, LabelsDoNotCollide) {
     const MarkedMap map(cells);
     const auto marks = map.marks();
     ASSERT_EQ(marks.size(), 100U);
-    EXPECT_TRUE(marks[0].label) << "the strongest comes first";
+    EXPECT_TRUE(marks[0].label) << "the strongest cell comes first";
     std::vector<Rect> boxes;
     for (const CellMark& mark : marks) {
         boxes.push_back({mark.center.x - 5, mark.center.y - 5, 10, 10});
@@ -198,7 +198,7 @@ TEST(CellMarks, StandOnAStemInAVolume) {
     EXPECT_LT(marks[0].top->y, marks[0].center.y) << "up";
 }
 
-// A camera among the cells sees only some of them, and no line has a point behind it.
+// A camera among the cells sees only some cells, and no line has a point behind it.
 TEST(CellMarks, EndWhereTheCameraDoesNotSeeThem) {
     Camera inside;
     inside.eye = Eye{0, 0, 3000};
@@ -271,7 +271,8 @@ TEST(CellMarks, LegendAndMetadataSayHowTheCellsWereFound) {
     EXPECT_THAT(cells_sentence(overlay), HasSubstr("0 C at 3900 m, -20 C at 7000 m"));
 }
 
-// A wide picture says so below its legend, a square one beside its product.
+// A wide picture has the sentence below its legend; a square picture has the sentence beside its
+// product.
 TEST(CellMarks, EachShapeOfPictureSaysHowTheCellsWereFound) {
     const FrameFacts facts{"KTLX", level2::Moment::ref, start, {}};
     const Fonts fonts = Fonts::load().value();

@@ -56,7 +56,7 @@ void expect_filled(const CornerTable& table, const grid::BrickView& view) {
 }
 
 // Returns a ball of echo with a hard rim. Outside the ball, cells below its middle were not seen,
-// and all others are clear air.
+// and all other cells are clear air.
 grid::BrickGrid ball_at(const grid::GridSpec& spec, double x, double y, double z) {
     return bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) {
         const double r = std::hypot(ix - x, iy - y, iz - z);

@@ -143,8 +143,8 @@ TEST(EchoTops, AreInterpolatedBetweenLevelsInDecibels) {
         {valued(50), unseen, quiet},                   // not seen above
         {valued(50), folded},                          // folded above
         {valued(18), quiet, valued(18.5), valued(3)},  // exactly the threshold
-        {valued(18), folded, quiet},                   // below it, and folded
-        {valued(18)},                                  // below it
+        {valued(18), folded, quiet},                   // below the threshold, and folded
+        {valued(18)},                                  // below the threshold
         repeated(unseen, 20),
         repeated(valued(30), 20),                              // up to the grid's top
         {valued(60), quiet, quiet, valued(30), valued(12.5)},  // an overhang counts

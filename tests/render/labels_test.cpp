@@ -49,7 +49,7 @@ void expect_tidy(const LabelLayout& layout, int width, int height) {
 
 DrawnFacts picture_of(Scene scene, level2::Moment moment, const ColorTable& table) {
     scene.moment = moment;
-    // Classes have names in place of a bar, and only a ppi shows them.
+    // Classes have names in place of a bar, and only a ppi shows classes.
     const bool has_classes = level2::facts_of(moment).is_categorical;
     if (has_classes) scene.product = Product::ppi;
     Legend legend = legend_of(scene);

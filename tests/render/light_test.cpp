@@ -83,7 +83,8 @@ double mean_green(const Layer& layer, int from_x, int to_x) {
     return sum / alpha;
 }
 
-// Draws an opaque dome under a low sun. Its side toward the sun must be lighter.
+// Draws an opaque dome under a low sun. The side toward the sun must be lighter than the other
+// side.
 TEST(Light, TheSideTurnedToTheSunIsLighter) {
     const grid::GridSpec spec = small_spec(64, 32);
     const auto bricks = bricks_of(make_grid_of(spec, [&](int ix, int iy, int iz) -> Cell {

@@ -76,7 +76,7 @@ void expect_tidy(const Planned& planned) {
             EXPECT_FALSE(marks_overlap(boxes[i].first, boxes[j].first))
                 << boxes[i].second << " and " << boxes[j].second;
         }
-        // No name is on a mark, its own or another.
+        // No name covers a mark, neither its own mark nor any other mark.
         for (const auto* points : {&planned.marks.sites, &planned.marks.cities}) {
             for (const Point& p : *points) {
                 EXPECT_FALSE(marks_overlap(boxes[i].first, {p.x - 1, p.y - 1, 2, 2}))
@@ -134,8 +134,8 @@ TEST(MapMarks, NamesTheLargestCitiesAndTheDistances) {
     EXPECT_EQ(planned.marks.site_texts[0].text, "KTLX");
 }
 
-// Tulsa is 10 km inside this grid's eastern edge, and its name is longer than that. The name must
-// be west of the town, although east of it there is room across the edge.
+// Tulsa is 10 km inside this grid's eastern edge, and its name covers more than 10 km. The name
+// must be west of the town, although east of it there is room across the edge.
 TEST(MapMarks, NamesOfCitiesDoNotCrossTheGridsEdge) {
     const Planned planned(spec_of(Projection::azimuthal_equidistant, 36.0, -97.05, 220, 230, 1000),
                           Camera{180, 0, 0.8}, 672, 462, 1, {});
@@ -201,8 +201,8 @@ TEST(MapMarks, AViewAlongTheGroundHasNoScaleBar) {
     EXPECT_FALSE(planned.marks.height_texts.empty());
 }
 
-// The tip of the arrow is its only bright part away from the middle, so bright pixels show where it
-// points.
+// The tip is the only bright part of the arrow away from the middle, so bright pixels show where
+// the arrow points.
 TEST(MapMarks, TheArrowPointsNorth) {
     for (const double azimuth_deg : {180.0, 90.0, 0.0, 270.0}) {
         const Planned planned(spec_of(Projection::azimuthal_equidistant, 40, -97, 100, 100, 4000),

@@ -88,7 +88,8 @@ TEST(ProductLegend, HatchesAmbiguousInTheColorOfRangeFolded) {
     EXPECT_EQ(row->color, shades::dark.land.seen);
     EXPECT_EQ(row->lines, colors_of(scene).range_folded);
     const Legend volume = legend_of(scene_of(Product::volume, Moment::veld));
-    EXPECT_EQ(volume.notes.front(), "no echo, ambiguous") << "the volume does not show it";
+    EXPECT_EQ(volume.notes.front(), "no echo, ambiguous")
+        << "a volume does not show ambiguous echo";
 }
 
 TEST(BarHeading, IsTheUnitOrElseTheMoment) {

@@ -24,7 +24,7 @@ cache::GridDescription description_at(int minute, const char* icao = "KTLX") {
     return made;
 }
 
-// Returns rain of 12 mm/h, of which the first rows are not seen.
+// Returns rain of 12 mm/h. The first rows are not seen.
 grid::BrickGrid steady_rain(const grid::GridSpec& spec, int unseen_rows) {
     grid::Grid rain;
     rain.spec = spec;

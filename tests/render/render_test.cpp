@@ -63,8 +63,8 @@ TEST(Composite, ShowsEachColumnsStateWhereItIs) {
     EXPECT_GT(between, 100);
 }
 
-// Draws the same cells twice, with no echo in place of ambiguous. The pictures may differ in the
-// ambiguous columns alone, and there by thin lines in the color of range folding.
+// Draws the same cells twice, with no echo in place of ambiguous. The pictures may differ only in
+// the ambiguous columns, and there by thin lines in the color of range folding.
 TEST(AmbiguousCells, AreHatchedInTheColorOfRangeFolding) {
     const auto frame = [](Product product, CellStatus status) {
         const auto grid = make_grid_of(small_spec(100, 4), [&](int ix, int iy, int) -> Cell {

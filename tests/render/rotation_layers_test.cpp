@@ -27,7 +27,7 @@ Strongest strongest_of(const FlatField& field, const grid::GridSpec& spec) {
     for (int iy = 0; iy < field.height; ++iy) {
         for (int ix = 0; ix < field.width; ++ix) {
             const std::size_t at = field.index(ix, iy);
-            // Nearer shear is that of the mean wind across the beam.
+            // Close to the radar, the mean wind across the beam looks like shear.
             const bool is_near = std::hypot(spec.x_m(ix), spec.y_m(iy)) < 5000;
             if (is_near || field.status[at] != grid::CellStatus::value) continue;
             if (field.values[at] > found.value)
@@ -70,7 +70,8 @@ TEST(RotationLayers, IsStrongestAtTheTornadoOfMoore) {
         scene.product = Product::rotation_aloft;
         const Strongest aloft =
             strongest_of(map_field(bricks.view(), facts, scene, {}, 1).value(), spec);
-        EXPECT_LT(std::hypot(aloft.x_m - east_m, aloft.y_m - north_m), 10e3) << "its mesocyclone";
+        EXPECT_LT(std::hypot(aloft.x_m - east_m, aloft.y_m - north_m), 10e3)
+            << "the mesocyclone of the tornado";
     }
 }
 

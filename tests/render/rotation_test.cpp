@@ -68,7 +68,8 @@ TEST(Rotation, StrongCellsAboveEachOtherMakeAColumn) {
     });
     const auto columns = rotation_columns(shear.view());
     const grid::BrickView view = columns.view();
-    // Half of the weight across is on the cell, and all of the weight along is in the column.
+    // Across the column, half of the weight is on the cell. Along the column, all of the weight is
+    // in the column.
     EXPECT_NEAR(view.value(10, 12, 9), 0.25, 0.006);
     EXPECT_NEAR(view.value(30, 5, 9), -0.25, 0.006);
     EXPECT_NEAR(view.value(11, 12, 9), 0.125, 0.006);
@@ -102,7 +103,7 @@ TEST(Rotation, WeakSingleAndShallowCellsMakeNoColumn) {
         << "ambiguous cells are no rotation";
 }
 
-// At the edges of bricks and of the grid.
+// Columns at the edges of bricks and of the grid.
 TEST(Rotation, AColumnMayLeanAcrossBricksAndTouchTheEdge) {
     const auto shear = shear_bricks(
         [](int x, int y, int z) { return y == 0 && x >= z && x < z + 3 ? 12.0F : 0.0F; });

@@ -118,7 +118,7 @@ TEST(SafeTables, VelocityIsLighterWithSpeedAndItsSidesDiffer) {
         << "velocities toward the radar must get lighter";
 }
 
-// Shows that the previous test can fail, because the tables of the Weather Service would fail it.
+// Shows that the previous test can fail: the tables of the Weather Service would not pass.
 TEST(SafeTables, TheWeatherServicesTablesAreNotSafe) {
     EXPECT_LT(least_step(nws_reflectivity(), sights[1]), 4);
     EXPECT_LT(least_step(nws_reflectivity(), sights[2]), 4);

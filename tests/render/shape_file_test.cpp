@@ -1,5 +1,5 @@
-// Tests that files of GeoJSON and placefiles are read as their specifications have it, and that
-// damaged ones are refused with the place of the damage.
+// Tests that files of GeoJSON and placefiles are read as their specifications say, and that damaged
+// files are refused with the place of the damage.
 #include "render/overlay/shape_file.h"
 
 #include <fstream>
@@ -55,7 +55,7 @@ TEST(GeoJson, APointHasItsNameAndStyle) {
     EXPECT_EQ(town.label, "Levelland");
     EXPECT_EQ(town.color, (Rgba8{0, 255, 136, 255}));
     EXPECT_EQ(town.width, 3);
-    EXPECT_TRUE(town.is_in_force({})) << "without times it is always in force";
+    EXPECT_TRUE(town.is_in_force({})) << "without times a town is always in force";
 }
 
 TEST(GeoJson, EveryGeometryIsRead) {
@@ -194,7 +194,7 @@ TEST(Placefile, IsReadAsItsSpecificationHasIt) {
     EXPECT_EQ(read->shapes[4].label, "spotter");
 }
 
-// Lines in an object are pixels. What follows in the object is still at its place.
+// Places of lines in an object are pixels. The text after the line is at the place of the object.
 TEST(Placefile, ABlockInAnObjectEndsByItself) {
     const auto read = shapes_of_placefile(
         "Object: 35, -97\nLine: 2, 0\n0, 0\n10, 10\nEnd:\nText: 120, 0, 1, \"a\"\nEnd:\n"

@@ -47,8 +47,8 @@ TEST(Slicer, OpacityOfAHomogeneousSlabIsTheClosedForm) {
     }
 }
 
-// Tests where one cell appears in the picture, from several directions, which fixes the
-// orientation.
+// Tests, from several directions, where one cell appears in the picture, so that no picture can be
+// mirrored or turned.
 void expect_cells_where_geometry_puts_them(const grid::GridSpec& spec) {
     struct Place {
         int ix, iy, iz;

@@ -1,5 +1,5 @@
 // Opens GeoTIFF and KMZ files with GDAL's programs, which have their own code for projections, and
-// checks that they find each cell at its place.
+// checks that the programs find each cell at its place.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -45,7 +45,7 @@ class StillNetcdf : public ::testing::TestWithParam<ProductCase> {
         return spec;
     }
 
-    // Returns the storm, of whose core one half is not seen above 6 km.
+    // Returns the storm. One half of its core is not seen above 6 km.
     static grid::Grid half_seen_storm(const grid::GridSpec& spec) {
         grid::Grid storm = storm_grid(spec);
         for (int iy = 0; iy < spec.ny; ++iy)

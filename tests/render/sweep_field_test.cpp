@@ -221,8 +221,8 @@ TEST_F(SweepField, ASweepIsNoGridAndAGridIsNoSweep) {
               "Reflectivity at 0.5 degrees elevation (PPI)");
 }
 
-// Draws a sweep twice, with no echo in place of ambiguous gates. The pictures may differ at the
-// ambiguous gates alone, and there by thin lines in the color of range folding.
+// Draws a sweep twice, with no echo in place of ambiguous gates. The pictures may differ only at
+// the ambiguous gates, and there by thin lines in the color of range folding.
 TEST(AmbiguousGates, AreHatchedInThePictureOfTheirSweep) {
     const grid::SitePosition site{"KTLX", 35, -97, 400};
     Scene scene;

@@ -86,7 +86,7 @@ inline grid::BrickGrid bricks_of(const grid::Grid& grid, int code_bytes = 1,
 }
 
 // Returns a cell of a storm without any symmetry, as a synthetic radar sees it: a leaning core with
-// an anvil to the northeast, a line to the southwest, a cone of silence, a missing sector.
+// an anvil to the northeast, a line to the southwest, a cone of silence, and a missing sector.
 inline Cell storm_cell(const grid::GridSpec& spec, int ix, int iy, int iz) {
     const double x = spec.x_m(ix) / 1000;
     const double y = spec.y_m(iy) / 1000;

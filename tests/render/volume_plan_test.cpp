@@ -1,8 +1,8 @@
 // Tests three promises of the planner of pictures, with scenes of real volumes and of a simulated
 // storm. If an effect that the planner left off is forced on, the picture changes by at most the
-// budget. If an effect that it turned on is forced off, the picture changes by more than a tenth of
-// the budget in at least one scene. (This does not hold for step_attenuation.) The chosen picture
-// differs from the exact chain's picture by at most the budget.
+// budget. If an effect that the planner turned on is forced off, the picture changes by more than a
+// tenth of the budget in at least one scene. (This does not hold for step_attenuation.) The chosen
+// picture differs from the exact chain's picture by at most the budget.
 #include "render/plan/volume_plan.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// Tests that each fact is written once. Only one file has the names of moments, and one the names
-// of products. No switch over an enumeration of the tables has a `default:`, which would let a
-// forgotten case compile. The recipes of CONTRIBUTING.md name few files, which exist.
+// Tests that each fact is written once. A single file has the names of moments, and a single file
+// has the names of products. No switch over an enumeration of the tables has a `default:`, which
+// would let a forgotten case compile. The recipes of CONTRIBUTING.md name few files, which exist.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -86,8 +86,8 @@ std::string without_blanks_at_end(std::string text) {
     return text;
 }
 
-// Returns the files in which a literal is one of the names, or holds two of them side by side, as
-// in a list typed by hand.
+// Returns the files in which a literal is one of the names, or holds two of the names side by side,
+// as in a list typed by hand.
 std::set<std::string> files_that_type(const std::vector<std::string>& names) {
     std::string any;
     for (const std::string& name : names)

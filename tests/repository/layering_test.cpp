@@ -1,5 +1,5 @@
 // Tests that includes run one way: a room includes only itself and the rooms allowed for it
-// (docs/architecture.md), and an inner room only itself and the inner rooms allowed for it. A
+// (docs/architecture.md). An inner room includes only itself and the inner rooms allowed for it. A
 // public header, include/stormcellar/ROOM/NAME.h, counts as part of the inner room of NAME.cpp, and
 // includes only public headers.
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Tests that annotations tell which members each mutex guards, so that clang can check it
-// (stormcellar/base/mutex.h, scripts/check-locks).
+// Tests that annotations tell which members each mutex guards, so that clang can check the uses of
+// these members (stormcellar/base/mutex.h, scripts/check-locks).
 #include <filesystem>
 #include <regex>
 #include <string>

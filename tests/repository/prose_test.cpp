@@ -116,8 +116,8 @@ TEST(Prose, TheCheckSeesWhatItLooksFor) {
     EXPECT_THAT(found.wide, ElementsAre(1U));
 }
 
-// Counts commits with long subjects. Without Git's history, as in an archive of the sources, there
-// are none.
+// Counts commits with long subjects. Without Git's history, as in an archive of the sources, the
+// count is 0.
 TEST(Prose, SubjectsOfCommitsAreShort) {
     constexpr std::size_t width = 72, allowed_before = 490;
     const std::string command =

@@ -40,7 +40,7 @@ namespace stormcellar::testing {
     return code;
 }
 
-// Returns the files below a folder, without those that npm installs.
+// Returns the files below a folder, without the files that npm installs.
 [[nodiscard]] inline std::vector<std::filesystem::path> files_below(
     const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
@@ -62,7 +62,7 @@ namespace stormcellar::testing {
 }
 
 // Returns the folders of the root with the product, its benchmarks and its documents: all folders
-// except tests, builds and hidden ones.
+// except tests, builds and hidden folders.
 [[nodiscard]] inline std::vector<std::filesystem::path> folders_of_the_product() {
     std::vector<std::filesystem::path> folders;
     for (const auto& entry : std::filesystem::directory_iterator(source_directory())) {

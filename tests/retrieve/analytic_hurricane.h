@@ -13,8 +13,8 @@ struct AnalyticHurricane {
     double maximum_mps = 55, radius_m = 25'000, decay = 0.6;
     double inflow_mps = 5;  // at the radius of maximum wind, in proportion to the tangential wind
     double east_mps = 0, north_mps = 0;  // mean wind
-    // Wave 1 of the tangential wind: its amplitude is this share of the mean, and it is greatest
-    // toward this azimuth from the center
+    // Wave 1 of the tangential wind: its amplitude is this share of the mean, and the wave is
+    // greatest toward this azimuth from the center
     double wave1 = 0, wave1_azimuth_deg = 0;
     double rotation = 1;  // -1 for the southern hemisphere
 

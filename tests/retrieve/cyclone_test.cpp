@@ -49,7 +49,8 @@ double off_m(const Cyclone& found, const AnalyticHurricane& hurricane) {
                       found.center_plane.y_m - hurricane.center.y_m);
 }
 
-// Expects that the true wind is within two stated errors for most rings, and within four for all.
+// Expects that the true wind is within two stated errors for most rings, and within four for all
+// rings.
 void expect_honest_errors(const Cyclone& found, const AnalyticHurricane& hurricane,
                           const std::string& label) {
     std::size_t within_two = 0;
@@ -98,7 +99,7 @@ TEST_P(Hurricanes, AreFound) {
 }
 INSTANTIATE_TEST_SUITE_P(Nyquist, Hurricanes, ::testing::Values(12.0, 18.0, 33.0));
 
-// A mean wind across the beam that nobody knows must stay within the error that is stated for it.
+// The error due to an unknown mean wind across the beam must stay within the stated error.
 TEST(Cyclone, StatesWhatAnUnknownWindAcrossDoes) {
     AnalyticHurricane hurricane = hurricane_at(80e3, 0, 30e3, 50);
     hurricane.east_mps = -6;  // to the left of the beam

@@ -39,8 +39,8 @@ TEST_P(SyntheticWind, IsUnfolded) {
     }
 }
 
-// A tenth of the gates holds random velocities. At most one in 10,000 gates of the wind may follow
-// them.
+// A tenth of the gates holds random velocities. At most one in 10,000 gates of the wind may get a
+// wrong fold number because of the random velocities.
 TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckle) {
     FoldedSpec spec;
     spec.nyquist_mps = GetParam();
@@ -51,7 +51,8 @@ TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckle) {
     EXPECT_LT(found.gates, 620'000) << "the score leaves speckle out";
     EXPECT_LE(found.wrong_share(), 0.0001);
 }
-// 2026-11-29: gates whose only neighbors were speckle followed it, at up to 0.9 % of the gates.
+// 2026-11-29: gates whose only neighbors were speckle took the fold number of the speckle; these
+// were up to 0.9 % of the gates.
 TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckleAndGaps) {
     FoldedSpec spec;
     spec.nyquist_mps = GetParam();
@@ -66,8 +67,8 @@ TEST_P(SyntheticWind, IsUnfoldedBetweenSpeckleAndGaps) {
 INSTANTIATE_TEST_SUITE_P(Nyquist, SyntheticWind, ::testing::Values(8.0, 12.0, 16.0, 24.0, 33.0));
 
 // Velocities rise by 24 m/s from north to south on the eastern side, and fall as much on the
-// western side. For 1 km of range they rise within one radial, so that there gates of two fold
-// numbers look alike.
+// western side. Over 1 km of range, the whole rise is within one radial, so gates of two fold
+// numbers look alike there.
 double linked_sides(double azimuth_deg, double range_m, double, double) {
     const bool is_sharp = range_m >= 25'000 && range_m < 26'000;
     const double east = std::clamp((azimuth_deg - 90) / (is_sharp ? 0.5 : 8) + 0.5, 0.0, 1.0);
@@ -75,7 +76,7 @@ double linked_sides(double azimuth_deg, double range_m, double, double) {
     return -9 + 24 * (east - west);
 }
 // 2026-11-30: a few linked gates gave half of the sweep a wrong fold number, as in the hurricane of
-// KCRP 2017 folded again at 12 m/s.
+// KCRP 2017 after its velocities were folded again at 12 m/s.
 TEST(Dealias, AFewGatesOfStrongShearDoNotFoldBothSides) {
     FoldedSpec spec;
     spec.elevations_deg = {0.5};
@@ -88,7 +89,7 @@ TEST(Dealias, AFewGatesOfStrongShearDoNotFoldBothSides) {
     }
 }
 
-// Two storms with no echo between them: only the wind says how often the far one is folded.
+// Two storms with no echo between them: only the wind can show how often the far storm is folded.
 TEST(Dealias, AnIsolatedStormIsAnchoredToTheWind) {
     const RadialVelocity wind = along_beam(uniform);
     const auto storms = [&](double azimuth, double range, double elevation, double height) {

@@ -117,7 +117,8 @@ TEST(DealiasedMoment, IsRawPlusWholeTurnsAtEveryGateOfRealVolumes) {
             EXPECT_GT(counts.ambiguous, 100);
             EXPECT_EQ(counts.values + counts.ambiguous, found->gates);
             EXPECT_EQ(counts.ambiguous, found->ambiguous_gates);
-            EXPECT_LE(counts.folded, found->folded_gates) << "some of them are ambiguous";
+            EXPECT_LE(counts.folded, found->folded_gates)
+                << "some of the folded gates are ambiguous";
             for (std::size_t i = 0; i < volume.sweeps.size(); ++i) {
                 const auto before = moments_of(measured.sweeps[i], Moment::vel);
                 const auto after = moments_of(volume.sweeps[i], Moment::vel);
@@ -168,7 +169,7 @@ TEST(DealiasedMoment, OfAVolumeWithoutVelocitiesIsNotFound) {
             ASSERT_FALSE(added);
             EXPECT_EQ(added.error().code, ErrorCode::not_found);
             EXPECT_EQ(added.error().message, "the volume has no velocities");
-            // Derived moments refuse to be made without dealiasing, whatever the volume has.
+            // Without dealiasing, no derived moment is made, whatever the volume has.
             EXPECT_EQ(derived_velocities(volume, std::array{Moment::veld}, {rung, {}}).error().code,
                       rung == Dealiasing::off ? ErrorCode::bad_argument : ErrorCode::not_found);
             EXPECT_FALSE(level2::holds(volume, Moment::veld));
@@ -204,8 +205,8 @@ TEST(DealiasedMoment, WithoutANyquistVelocityIsAmbiguous) {
                         others += is_known && status != GateStatus::valid ? 1 : 0;
                     }
             }
-            // Each sheet is one region here. Nothing tells `region` by which turn such a region is
-            // off.
+            // Each sheet is one region here. `region` cannot know by how many turns such a region
+            // is off.
             if (rung == Dealiasing::region) continue;
             EXPECT_GT(values, 50 * others) << "the other radials keep their velocities";
         }

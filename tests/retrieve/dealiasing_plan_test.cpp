@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 
 const synth::Wind turning{{{0, {0, 8}}, {8000, {45, 0}}}};
 
-// Two storms without echo between them. Neighbors do not tell how often the far one is folded.
+// Two storms without echo between them. Neighbors cannot show how often the far storm is folded.
 FoldedVolume two_storms() {
     FoldedSpec spec;
     spec.nyquist_mps = 10;
@@ -64,7 +64,7 @@ TEST(DealiasingPlan, LeavesOffWhatNothingNeeds) {
     }
 }
 
-// A turn has 20 m/s.
+// A turn is 20 m/s.
 TEST(DealiasingPlan, TakesTheRungThatTheBudgetNeeds) {
     const FoldedVolume folded = two_storms();
     const DealiasingPlan exact = planned(folded.volume, "1 m/s");

@@ -1,5 +1,5 @@
-// Tests the names of what is not weather: on made volumes, where every gate is of one kind, and on
-// real ones, whose pictures show what they have.
+// Tests the kinds that are named for echo that is not weather: on simulated volumes whose echo is
+// of one kind, and on real volumes whose kinds are known from pictures.
 #include "stormcellar/retrieve/echo_kinds.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ double wind_at(const EchoPlace& place, double speed_mps) {
     return speed_mps * std::cos(place.azimuth_deg * degree);
 }
 
-// Names all echo of a volume, as if the rule took none of it for weather.
+// Names all echo of a volume, as if the rule took no echo for weather.
 EchoShares shares_of(const level2::Volume& volume) {
     std::vector<SweepQuality> qualities;
     for (std::size_t sweep = 0; sweep < volume.sweeps.size(); ++sweep) {
@@ -140,7 +140,7 @@ TEST(EchoKinds, ClaimsNothingThatTheDataDoNotShow) {
     EXPECT_GE(drizzle.share(EchoKind::other), 0.99);
 }
 
-// Each gate is called no weather, and yet gets no name.
+// The test treats each gate as not weather; even then, no gate may get a name.
 TEST(EchoKinds, DoesNotNameRainOrHail) {
     for (const bool has_dual : {false, true}) {
         Noise noise;
@@ -193,8 +193,8 @@ EchoShares real_shares(const std::string& name) {
     return echo_shares(echo_kinds(volume, weather_probabilities(volume)));
 }
 
-// The picture of KABR shows single gates of up to 25 dBZ within 60 km, most of which stand still,
-// on a clear winter evening.
+// The picture of KABR, on a clear winter evening, shows single gates of up to 25 dBZ within 60 km.
+// Most of these gates stand still.
 TEST(EchoKindsOfRealVolumes, HaveGroundClutterAtKabr) {
     STORMCELLAR_NEED_DATA();
     const EchoShares shares = real_shares("volumes/KABR20050101_000745.gz");
@@ -203,8 +203,8 @@ TEST(EchoKindsOfRealVolumes, HaveGroundClutterAtKabr) {
     EXPECT_EQ(shares.share(EchoKind::sun_spike), 0);
 }
 
-// The picture of KOKX shows a disk of 10 to 25 dBZ with a radius of 120 km, coming from the north
-// at 15 m/s, and no shape of a storm. There is no dual polarization.
+// The picture of KOKX shows a disk of 10 to 25 dBZ with a radius of 120 km. The disk comes from the
+// north at 15 m/s, and no echo has the shape of a storm. There is no dual polarization.
 TEST(EchoKindsOfRealVolumes, HaveBirdsAtKokx) {
     STORMCELLAR_NEED_DATA();
     const EchoShares shares = real_shares("mosaic-northeast/KOKX20100911_011047_V03.gz");
@@ -212,8 +212,8 @@ TEST(EchoKindsOfRealVolumes, HaveBirdsAtKokx) {
     EXPECT_LE(shares.share(EchoKind::other), 0.15);
 }
 
-// The picture of KLOT shows a smooth disk of 10 to 25 dBZ within 110 km with a correlation of 0.3
-// to 0.8, coming from the north, between areas of rain with a correlation of 1.
+// The picture of KLOT shows a smooth disk of 10 to 25 dBZ within 110 km, between areas of rain with
+// a correlation of 1. The disk has a correlation of 0.3 to 0.8 and comes from the north.
 TEST(EchoKindsOfRealVolumes, HaveBirdsAtKlot) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = real_volume("chunks/KLOT_34");

@@ -27,7 +27,7 @@ inline const std::map<level2::Moment, CodeScale> usual_scales = {
     {level2::Moment::sw, {2, 129}},      {level2::Moment::zdr, {16, 128}},
     {level2::Moment::phi, {2.8361F, 2}}, {level2::Moment::rho, {300, -60.5F}}};
 
-// Returns the moment in codes of 16 bits. Throws if it is none of the six.
+// Returns the moment in codes of 16 bits. Throws for any moment that is not in usual_scales.
 inline level2::SweepMoment empty_moment(const GateLayout& layout, level2::Moment kind) {
     level2::SweepMoment moment;
     moment.moment = kind;

@@ -72,7 +72,7 @@ std::vector<Votes> anchors_of_nodes(const Problem& problem, const FoldGraph& gra
     return anchors;
 }
 
-// Compares with all 5^6 solutions from -2 to 2.
+// Compares the result with all 5^6 solutions from -2 to 2.
 TEST(FoldGraph, FindsTheLeastCostOfSmallGraphs) {
     std::mt19937 random(11);
     int joined = 0;

@@ -25,7 +25,7 @@ struct Gate {
     double true_mps = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Returns what a gate shows of its true velocity; NaN shows nothing.
+// Returns what the radar measures at a gate of this true velocity. NaN stands for no echo.
 Gate observe_gate(const FoldedSpec& spec, const synth::DrawPlace& place, double true_mps) {
     const synth::RandomWords words = synth::draw(spec.seed, synth::Draw::gate, place);
     Gate gate;

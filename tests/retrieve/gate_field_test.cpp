@@ -9,7 +9,7 @@ namespace stormcellar::retrieve {
 namespace {
 
 // A field whose gates have a code with a probability of 70 % up to an end that differs from radial
-// to radial; one radial has none.
+// to radial; one radial has no such gates.
 GateField random_field(bool is_circle) {
     std::mt19937 random(7);
     GateField field;
@@ -36,7 +36,7 @@ struct Expected {
     int count = 0;
 };
 
-// Sums `number(radial, gate)` over a box, one gate after the other; a negative number is none.
+// Sums `number(radial, gate)` over a box, one gate after the other. Negative numbers do not count.
 template <class Number>
 Expected sum_box(const GateField& field, const GateBox& box, int radial, int gate, Number number) {
     Expected expected;

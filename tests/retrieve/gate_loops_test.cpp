@@ -1,4 +1,4 @@
-// Compares the loops with obvious ones, for the vectors of each processor and for counts that do
+// Compares the loops with obvious loops, for the vectors of each processor and for counts that do
 // not fill a vector.
 #include "retrieve/quality/gate_loops.h"
 

@@ -71,7 +71,8 @@ TEST(HailMosaic, HasTheLargestHailOfItsRadarsInEachColumn) {
     EXPECT_GT(from_west, 20);
 }
 
-// A radar that sees only the lower half of a column wins there with cells that are not seen above.
+// If the radar with the most hail sees only the lower half of a column, the column of the mosaic is
+// not seen above that half.
 TEST(HailMosaic, TakesStatesFromTheSameRadarAndKeepsColumnsWithoutHail) {
     grid::Grid half_seen = slanted_echo(60, 0, 10);
     for (int iz = 10; iz < half_seen.spec.nz(); ++iz)

@@ -36,7 +36,7 @@ struct HardCase {
     std::function<level2::Volume()> make;
 };
 
-// Lets find_cyclone() search.
+// Gives the volume a position, without which find_cyclone() does not search.
 level2::Volume placed(FoldedVolume folded) {
     folded.volume.block.emplace();
     folded.volume.block->latitude_deg = 30;
@@ -66,7 +66,7 @@ level2::Volume with_nyquist(float nyquist_mps) {
 level2::Volume with_radials(int radials) {
     FoldedSpec spec = small_spec();
     spec.radials = radials;
-    // Legacy sweeps end by overlapping their beginning.
+    // The last radials of legacy sweeps overlap the first.
     return changed(spec, [](level2::Sweep& sweep) {
         for (std::size_t i = 0; i < sweep.radials.size(); ++i)
             sweep.radials[i].azimuth_deg = std::fmod(static_cast<float>(i) + 0.25F, 360.0F);
@@ -262,7 +262,7 @@ void expect_sound_values(const level2::SweepMoment& moment, std::size_t radials)
     }
 }
 
-// Expects VELD and SRV, or the reason why there is none.
+// Expects VELD and SRV, or the reason why they are missing.
 void expect_sound_moments(const level2::Volume& given, Dealiasing rung) {
     for (const MotionRule rule : {MotionRule::given, MotionRule::right}) {
         level2::Volume volume = given;

@@ -50,7 +50,7 @@ TEST(Harvey, HasTheSameWindForEachRung) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = decoded("KCRP20170826_044114.trimmed.ar2v");
     const grid::SiteFrame site(27.784, -97.511);
-    // Search the eye from the National Hurricane Center's position of 03 UTC, 28.0 N 97.0 W.
+    // Search for the eye from the National Hurricane Center's position of 03 UTC, 28.0 N 97.0 W.
     // Carried on toward the north-west at 7 mph, that position is 14 km from the eye, in the
     // western eyewall.
     const grid::PlanePoint eye =

@@ -55,7 +55,7 @@ Hydrometeor truth_at(double azimuth_deg, double arc_m, double height_m) {
     if (height_m > echo_top_m - 500) return Hydrometeor::none;
     if (core == Core::hail)
         return height_m > frozen_above_m + 500 ? Hydrometeor::graupel : Hydrometeor::none;
-    // The lowest correlation is three fifths of the way down.
+    // The lowest correlation is three fifths of the way down the melting layer.
     if (std::abs(height_m - 2700) < 100) return Hydrometeor::wet_snow;
     if (is_at(melted_below_m) || is_at(frozen_above_m) || height_m < frozen_above_m)
         return Hydrometeor::none;
@@ -90,7 +90,7 @@ Confusion confusion_of(const level2::Volume& volume) {
     return table;
 }
 
-// Returns the share of the gates of a class that get another one, or the same.
+// Returns the share of the gates of class `truth` that were named `named`.
 double share_of(const Confusion& table, Hydrometeor truth, Hydrometeor named) {
     const auto& row = table[static_cast<std::size_t>(truth)];
     std::int64_t all = 0;

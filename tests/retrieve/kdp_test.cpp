@@ -1,5 +1,5 @@
 // Compares KDP with the truth of synthetic ramps: constant KDP, steps, cores, wraps, gaps, speckle
-// and backscatter phase, and holds the stated error to the real one.
+// and backscatter phase. Also compares the stated error with the real error.
 #include "stormcellar/retrieve/kdp.h"
 
 #include <cmath>
@@ -103,7 +103,7 @@ TEST(Kdp, HasNoBiasWhereItIsNegative) {
     }
 }
 
-// The error is not merely large: where KDP is constant, it is at most twice the real one.
+// The stated error is not merely large: where KDP is constant, it is at most twice the real error.
 TEST(Kdp, ErrorsAreNoLargerThanNeeded) {
     const PhaseRamp ramp{[](double) { return 1.0; }};
     const auto all = specific_differential_phases(volume_of_ramp(ramp));

@@ -1,5 +1,5 @@
-// Tests that sweeps which were dealiased before help to dealias others: the volume before, and the
-// sweeps of a volume that still grows.
+// Tests that sweeps that are already dealiased help to dealias other sweeps. The known sweeps are
+// those of the volume before, or of the same volume while it grows.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -87,7 +87,7 @@ TEST(KnownSweeps, HelpSweepsOfOtherElevations) {
     EXPECT_LE(score_with(now, before).wrong_share(), 0.001);
 }
 
-// Sweeps that are too old or too new, without VELD, or ambiguous, leave the result as it is.
+// Sweeps leave the result as it is if they are too old or too new, lack VELD, or are ambiguous.
 TEST(KnownSweeps, WithoutAVoteChangeNothing) {
     const FoldedVolume now = folded_at(std::chrono::minutes{0}, storm_alone);
     const auto expect_no_change = [&](std::span<const level2::Sweep> known) {
@@ -122,7 +122,7 @@ TEST(KnownSweeps, HaveNoVoteInOtherRungs) {
     }
 }
 
-// Dealiases each sweep once, with those before it, as a growing volume is dealiased.
+// Dealiases each sweep once, with the sweeps before it, as a growing volume is dealiased.
 struct Difference {
     std::int64_t gates = 0, values = 0, marks = 0;
 };
@@ -150,7 +150,7 @@ Difference sweep_by_sweep(const level2::Volume& volume) {
     return difference;
 }
 
-// The last is noisy clear air.
+// The last of these volumes shows noisy clear air.
 TEST(KnownSweeps, UnfoldARealVolumeSweepBySweepNearlyAsAWhole) {
     STORMCELLAR_NEED_DATA();
     for (const char* name : {"KTLX19990503_235621.gz", "KLIX20050828_180149.gz",

@@ -56,7 +56,8 @@ std::vector<LayerCase> layer_cases() {
     return made;
 }
 
-// Errors of heights, and how many are within the stated error and twice that.
+// Errors of heights. Counts how many are within the stated error, and how many are within twice the
+// stated error.
 struct HeightScore {
     std::vector<double> errors;
     int within = 0, within_twice = 0;
@@ -219,7 +220,7 @@ Result<MeltingLayer> real_layer(const std::string& name) {
 }
 
 // No sounding is at hand. Py-ART's means by height show the least correlation at 2.2 to 2.6 km
-// above the antenna, and snow's from 3.0 km on.
+// above the antenna, and the correlation of snow from 3.0 km on.
 TEST(MeltingLayerOfRealVolumes, IsFoundAtKlbb) {
     STORMCELLAR_NEED_DATA();
     const auto layer = real_layer("volumes/KLBB20160601_150025_V06");

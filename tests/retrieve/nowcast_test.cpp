@@ -1,4 +1,4 @@
-// Tests that nowcasts are made of known motions alone, and that hindcasts measure their error.
+// Tests that nowcasts are made only with known motions, and that hindcasts measure their error.
 #include "retrieve/nowcast/nowcast.h"
 
 #include <cmath>
@@ -169,8 +169,8 @@ TEST(Hindcasts, OfADriftBeatPersistenceAtEachLead) {
 }
 
 TEST(Hindcasts, UseEarlierGridsAlone) {
-    // The last grid is of storms that stand elsewhere. If a hindcast used the motion toward it, the
-    // hindcast from the second grid for the third would change.
+    // The storms of the last grid are at other places. If a hindcast used the motion toward these
+    // places, the hindcast from the second grid for the third grid would change.
     const std::vector<double> leads = {5};
     const Sequence three = drifting(3);
     Sequence four = drifting(3);

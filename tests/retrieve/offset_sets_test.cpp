@@ -7,7 +7,7 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// Every member has a value; joins tell the sets the differences, in random order.
+// Every member has a value. The sets learn differences of these values by joins, in random order.
 TEST(OffsetSets, KnowEveryDifferenceInsideASet) {
     std::mt19937 random(7);
     std::uniform_int_distribution<std::int32_t> member(0, 199), value(-9, 9);

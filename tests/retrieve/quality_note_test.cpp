@@ -1,4 +1,4 @@
-// Tests that the numbers of notes about echo that is left out are read.
+// Tests that the reader of notes about left-out echo finds the numbers in the notes.
 #include "retrieve/derived/quality_note.h"
 
 #include <limits>

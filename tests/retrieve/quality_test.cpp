@@ -65,8 +65,8 @@ Shares shares_of(const level2::Volume& volume, bool only_single) {
     return {removed / other, kept / weather};
 }
 
-// The rules were not made from the volume of KDMX of March 2022. Its echo that is no weather lies
-// amid snow, so it is the hardest of the five volumes that score the rules.
+// The rules were not made from the volume of KDMX of March 2022. Its echo that is not weather is
+// amid snow, so this volume is the hardest of the five that score the rules.
 TEST(Quality, TellsWeatherInAVolumeThatDidNotTeach) {
     STORMCELLAR_NEED_DATA();
     const level2::Volume volume = volume_of("KDMX20220305_232324.trimmed.ar2v");
@@ -124,7 +124,8 @@ level2::Volume one_sweep(int radials, int gates, std::uint8_t code) {
     return volume;
 }
 
-// Each gate with echo gets a probability. A volume without gate spacing gets none.
+// Each gate with echo gets a probability. The gates of a volume without gate spacing get no
+// probability.
 TEST(Quality, HardCasesHaveAProbabilityForEachGateWithEcho) {
     EXPECT_TRUE(weather_probabilities({}).empty());
     for (const auto& [radials, gates] : {std::pair{1, 1}, {2, 3}, {360, 1}, {1, 460}, {367, 460}})
@@ -184,7 +185,7 @@ TEST(QualityMoment, HasTheFlagsOfReflectivityAndTheProbabilities) {
     EXPECT_EQ(volume.sweeps[1].find(Moment::veld), nullptr);
 }
 
-// Gates are left out if and only if POW is below the limit, velocities included.
+// Gates, also gates of velocity, are left out if and only if POW is below the limit.
 TEST(QualityMoment, LeavesOutGatesBelowTheLimitAndNoOthers) {
     STORMCELLAR_NEED_DATA();
     level2::Volume judged = volume_of("KDMX20220305_232324.trimmed.ar2v");

@@ -96,7 +96,8 @@ TEST(Refold, KeepsRawPlusTwoNTimesNyquist) {
     }
 }
 
-// Radials that a lower Nyquist velocity has folded cannot tell their velocities at a higher one.
+// If radials were folded at a lower Nyquist velocity, their velocities at a higher Nyquist velocity
+// are unknown.
 TEST(Refold, RadialsOfALowerNyquistVelocityAreUnknown) {
     KnownVolume known = known_volume();
     known.volume.sweeps[0].radials[7].nyquist_mps = 10;
@@ -121,7 +122,7 @@ TEST(Refold, RefusesBadNyquistVelocitiesAndFoldsOfAnotherVolume) {
         EXPECT_FALSE(refold(known, bad)) << bad;
     known.folds.pop_back();
     EXPECT_FALSE(refold(known, 12));
-    EXPECT_TRUE(refold({}, 12)) << "a volume without velocities has none to fold";
+    EXPECT_TRUE(refold({}, 12)) << "a volume without velocities has nothing to fold";
 }
 
 TEST(Refold, ScoresCountWrongAndMarkedGates) {

@@ -1,4 +1,4 @@
-// Tests fit_ring() on winds that are known, with gaps and wrong fold numbers, and climb().
+// Tests climb(), and fit_ring() on winds that are known, with gaps and wrong fold numbers.
 #include "retrieve/cyclone/ring_fit.h"
 
 #include <cmath>

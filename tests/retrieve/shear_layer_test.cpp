@@ -110,7 +110,7 @@ TEST(ShearLayer, MaximaKeepTheirDistance) {
     EXPECT_TRUE(strongest_maxima({}, radar).empty());
 }
 
-// The lower sweep has the weaker vortex. A layer takes the stronger one of the sweeps in it.
+// The lower sweep has the weaker vortex. A layer takes the strongest vortex of the sweeps in it.
 TEST(ShearLayer, TakesTheLargestShearOfTheSweepsInIt) {
     const auto sweep = [](level2::Volume& volume, double elevation_deg, double per_s) {
         add_sweep(volume, sweep_at(elevation_deg), [=](double azimuth_deg, double range_m) {
@@ -211,8 +211,8 @@ TEST(RotationTrack, KeepsTheLargestShearOfEachCell) {
     EXPECT_FALSE(add_to_track(track, other));
 }
 
-// The tornado is at 35.25 N 97.69 W in the lowest sweep. There are no stronger maxima in it or in
-// the layer.
+// The tornado is at 35.25 N 97.69 W in the lowest sweep. There are no stronger maxima in the sweep
+// or in the layer.
 TEST(GoldenShear, FindsTheTornadoOfMoore) {
     STORMCELLAR_NEED_DATA();
     const auto decoded = level2::decode_file(testing::real_file("volumes/KTLX19990503_235621.gz"));
@@ -240,7 +240,8 @@ TEST(GoldenShear, FindsTheTornadoOfMoore) {
     const auto maxima =
         strongest_maxima(filtered->at(0), {antenna->latitude_deg, antenna->longitude_deg});
     ASSERT_FALSE(maxima.empty());
-    EXPECT_LT(maxima[0].azimuthal_per_s, 0.02) << "a median of radials 1 degree apart wipes it out";
+    EXPECT_LT(maxima[0].azimuthal_per_s, 0.02)
+        << "a median of radials 1 degree apart removes the maximum";
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(ShearMoments, FindTheTornadoOfMoore) {
         for (std::int32_t gate = 0; gate < rotation.gate_counts[radial]; ++gate) {
             const std::uint16_t code = rotation.code(radial, gate);
             const double range_m = rotation.range_m(gate);
-            // Nearer shear is that of the mean wind across the beam.
+            // Close to the radar, the mean wind across the beam looks like shear.
             if (code < 3 || range_m < 5000 || per_s(rotation, code) <= greatest) continue;
             greatest = per_s(rotation, code);
             place = radar.to_geo({static_cast<double>(sweep.radials[radial].azimuth_deg), range_m});

@@ -44,7 +44,7 @@ TEST(ShearPeaks, AreTheStrongestColumnsOfTheLayer) {
     grid::Grid made = no_shear();
     set_shear(made, 10, 20, 2, 0.0123F);
     set_shear(made, 10, 20, 3, 0.008F);
-    set_shear(made, 12, 20, 1, 0.012F);  // 2 km from a stronger one
+    set_shear(made, 12, 20, 1, 0.012F);  // 2 km from a stronger peak
     set_shear(made, 15, 20, 0, 0.01F);   // 5 km, which is far enough
     set_shear(made, 30, 5, 4, 0.02F);
     set_shear(made, 40, 30, 1, -0.03F);   // anticyclonic
@@ -87,7 +87,7 @@ TEST(ShearPeaks, OfEmptyLayersAndGridsAreNone) {
     EXPECT_TRUE(peaks_of_grid(made).empty());
 }
 
-// Compares with a search that looks at each column again for each peak.
+// Compares the peaks with those of a search that looks at each column again for each peak.
 TEST(ShearPeaks, AreThoseOfASlowSearch) {
     grid::Grid made = no_shear();
     std::mt19937 random(48);

@@ -60,7 +60,7 @@ TEST(Spokes, IgnoresShortRunsWideSectorsAndSpeckles) {
     EXPECT_TRUE(spokes_of(sweep_with_spoke(40, 0, 0, 0)).empty());
 }
 
-// A sector scan ends at the radial beside the echo, which is no spoke then.
+// Echo in the last radial of a sector scan is no spoke, because only one side of it was measured.
 TEST(Spokes, IgnoresRadialsBesideAGap) {
     level2::Sweep sweep = sweep_with_spoke(40, 1, 30e3, 150e3);
     ASSERT_GT(count(spokes_of(sweep), Spoke::interference), 0);

@@ -1,5 +1,5 @@
 // Tests that storm cells are found where a simulated radar sees storms, with the attributes of the
-// storms, and that cases without storms give none.
+// storms, and that cases without storms give no cells.
 #include "stormcellar/retrieve/storm_cells.h"
 
 #include <cmath>
@@ -81,7 +81,8 @@ TEST(StormCells, MeasureTheStorm) {
     EXPECT_FALSE(cell.azimuthal_shear_per_s);
     ASSERT_TRUE(cell.mesh_mm);
     EXPECT_GT(*cell.mesh_mm, 5);
-    // Lower freezing levels give larger hail, so the range holds MESH.
+    // The least hail is for higher freezing levels and the most for lower freezing levels, so MESH
+    // is in between.
     ASSERT_TRUE(cell.mesh_range);
     EXPECT_LT(cell.mesh_range->least_mm, *cell.mesh_mm);
     EXPECT_GT(cell.mesh_range->most_mm, *cell.mesh_mm);
@@ -111,7 +112,8 @@ TEST(StormCells, VilOfAColumnIsThatOfGreeneAndClark) {
     }
     const auto cells = cells_of(grid);
     ASSERT_EQ(cells.size(), 1U);
-    // Half a layer below, three whole layers, and one with the mean of 50 dBZ and no echo.
+    // Counts half a layer below, three whole layers, and a layer with the mean of 50 dBZ and no
+    // echo.
     const double vil = 3.44e-6 * (3500 * std::pow(1e5, 4.0 / 7) + 1000 * std::pow(0.5e5, 4.0 / 7));
     EXPECT_NEAR(cells[0].vil_kg_per_m2, vil, 1e-4 * vil);
     EXPECT_EQ(cells[0].area_km2, 49);
@@ -226,7 +228,7 @@ ripple_db = 3
     const auto scan = find_cells({bricks.view(), {}, {}}, noon, "KTLX");
     ASSERT_TRUE(scan);
     EXPECT_TRUE(scan->cells.empty()) << scan->cells.size();
-    // Strong echo there is.
+    // There is strong echo: with a least depth of 0, it makes cells.
     CellOptions thin;
     thin.least_depth_m = 0;
     const auto layers = find_cells({bricks.view(), {}, {}}, noon, "KTLX", thin);

@@ -31,7 +31,8 @@ std::string refusal(const std::vector<WindLayer>& layers) {
 TEST(StormMotion, DeviatesAtRightAnglesToTheShear) {
     const auto motions = bunkers_motions(layers_up_to(7'000));
     ASSERT_TRUE(motions) << motions.error().message;
-    // The layers end 100 m above the ground, where the lowest wind holds on.
+    // The middle of the lowest layer is 100 m above the ground. The wind of this layer is used
+    // below its middle too.
     EXPECT_NEAR(motions->mean.u_mps, 12, 0.01);
     EXPECT_NEAR(motions->mean.v_mps, 5, 1e-9);
     EXPECT_NEAR(motions->right.u_mps, motions->mean.u_mps, 1e-9);

@@ -1,4 +1,5 @@
-// Tests that the motion of a track errs as much as it says, on tracks whose positions have noise.
+// Tests that the motion of a track has the error that it states, on tracks whose positions have
+// noise.
 #include "retrieve/cells/track_motion.h"
 
 #include <cmath>

@@ -138,7 +138,7 @@ TEST(WindProfile, StandardErrorsAreTheScatterOfTheResults) {
     EXPECT_NEAR(std::sqrt(variances / squares), 1, 0.5);
 }
 
-// In 60 degrees of azimuth all gates have the velocity of something else.
+// In 60 degrees of azimuth all gates have the velocity of something other than the wind.
 TEST(WindProfile, RejectsASectorThatMovesOtherwise) {
     const FoldedVolume mixed =
         fold(full_volume(60), [](double azimuth, double, double elevation, double height) {
@@ -186,7 +186,7 @@ TEST(WindProfile, IsRightInClutter) {
     EXPECT_GE(checked, 45);
 }
 
-// Half of the circle moves with one wind, and half with the opposite one.
+// Half of the circle moves with one wind, and the other half with the opposite wind.
 TEST(WindProfile, TwoWindsAreNoWind) {
     const Layers layers =
         profile_of(full_volume(33), [](double azimuth, double, double elevation, double) {

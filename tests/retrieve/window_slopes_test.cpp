@@ -1,4 +1,5 @@
-// Compares the slopes of windows with one window after another, for the vectors of each processor.
+// Compares the slopes of all windows with a fit of each single window, for the vectors of each
+// processor.
 #include "retrieve/kdp/window_slopes.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ struct OneSlope {
     bool is_line = false;
 };
 
-// Fits the window with `part` eighths of itself before the gate.
+// Fits the window of which `part` eighths are before the gate.
 OneSlope slope_in(const RowSums& sums, const std::vector<double>& noise, std::ptrdiff_t gate,
                   std::ptrdiff_t part, std::ptrdiff_t gates) {
     const std::ptrdiff_t begin = gate - part * (gates - 1) / eighths;
@@ -155,7 +156,7 @@ TEST(WindowSlopes, MeansAreThoseOfOneWindowAfterAnother) {
         hwy::SetSupportedTargetsForTest(target);
         for (const std::size_t gates : {1U, 5U, 33U})
             (void)expect_means_of(holed_ramp(gates));
-        // The slope rises along the row, so its end is no line.
+        // The slope rises along the row, so the end of the row is no straight line.
         const Found found = expect_means_of(holed_ramp(160));
         EXPECT_GT(found.even, 0);
         EXPECT_GT(found.uneven, 0);

@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// Compares with the published answers for the generator (Random123, kat_vectors).
+// Compares the numbers with the published answers for the generator (Random123, kat_vectors).
 TEST(CounterRandom, GivesThePublishedAnswers) {
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
               (RandomWords{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));

@@ -26,7 +26,7 @@ Scene small_storm() {
     return std::move(*scene);
 }
 
-// Writes a volume as a file's bytes and decodes them.
+// Writes a volume as the bytes of a file, and decodes these bytes.
 level2::Decoded written_and_read(const Scene& scene, int number) {
     const auto encoded = level2::encode(observe(scene, number));
     if (!encoded) throw std::runtime_error(encoded.error().message);
@@ -73,7 +73,7 @@ TEST(Observe, IsACompleteVolumeOfItsSiteTimeAndPattern) {
             last = radial.time;
         }
     }
-    EXPECT_LT(last, scene.schedule.start_of(2)) << "the next volume begins after this one's end";
+    EXPECT_LT(last, scene.schedule.start_of(2)) << "each volume ends before the next volume begins";
     EXPECT_EQ(volume_file_name(scene, 1), "XSYN20240601_220100_V06");
 }
 

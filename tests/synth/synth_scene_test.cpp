@@ -362,8 +362,8 @@ TEST(Scene, AnInstrumentDoesNothingUnlessItIsTold) {
     EXPECT_THAT(message_of(start + "beam_width = 1\n"), HasSubstr("unknown key"));
 }
 
-// Both radars place a storm at the same point of the earth, within 50 m if they are 200 km away
-// from it.
+// Both radars place a storm at the same point of the earth, within 50 m if the radars are 200 km
+// away from the storm.
 TEST(Scene, RadarsOfOneOriginSeeTheSameWeather) {
     const grid::SiteFrame origin(40, -97);
     for (const double longitude_deg : {-99.0, -97.0, -95.5}) {

@@ -91,7 +91,8 @@ TEST(TruthHook, FollowsItsArcAndLeavesTheGap) {
     storm.footprint.major_m = storm.footprint.minor_m = 1000;  // out of the way
     storm.hook = Hook{-20000, 0, 5000, 90, 360, 1000, 6000, 50};
     const Weather weather = only(storm);
-    // The points are on the arc in the south, one width away from it, and at its top.
+    // The points are on the arc in the south, one width away from the arc, and at the top of the
+    // arc.
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 0}, 0), 50, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -6000, 0}, 0), 10, 1e-9);
     EXPECT_NEAR(truth_dbz(weather, {-20000, -5000, 6000}, 0), 10, 1e-9);
@@ -226,7 +227,7 @@ TEST(Truth, TheAirMovesWithTheWindAndTheEchoWithItsFeature) {
     EXPECT_NEAR(linear_truth(weather, later, 100).motion.north_mps, 50, 1e-12);
     EXPECT_EQ(truth(weather, {900000, 0, 1000}, 0).motion.north_mps, 0)
         << "without echo there is no motion";
-    const Weather turned = seen_from(weather, {0, 0, 90});  // its north is east
+    const Weather turned = seen_from(weather, {0, 0, 90});  // north in the turned plane is east
     EXPECT_NEAR(truth(turned, {-later.y_m, later.x_m, 1000}, 100).motion.north_mps, 4, 1e-9);
 }
 

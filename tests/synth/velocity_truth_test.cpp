@@ -22,7 +22,7 @@ using level2::Moment;
 using level2::Sweep;
 using level2::SweepMoment;
 
-// Rain over all of a wind of every kind, observed at 0.5 degrees.
+// A wind with parts of every kind and rain everywhere in it, observed at 0.5 degrees.
 constexpr const char* windy_toml = R"([radar]
 station = "XSYN"
 latitude_deg = 35
@@ -224,7 +224,7 @@ BeamErrors beam_errors(const Scene& scene, double x_m, double y_m) {
 TEST(VelocityTruth, OfAGateIsTheMeanOverTheBeam) {
     Scene scene = windy_scene(20);
     scene.instrument.beam_width_deg = 0.95;
-    // Rain around the vortex is enough, and quick.
+    // Rain around the vortex alone is enough for this test, and quick to observe.
     Footprint& footprint = scene.weather.boxes[0].footprint;
     footprint.x_m = 60000;
     footprint.y_m = 30000;
@@ -249,9 +249,9 @@ TEST(VelocityTruth, OfAGateIsTheMeanOverTheBeam) {
     EXPECT_GT(errors.of_point_mps, 2) << "a beam smooths the jet";
 }
 
-// Up to 1.4 km above sea level, rain of 50 dBZ moves with 10 m/s; above it, rain of 20 dBZ moves
-// with 40 m/s. The axis of the beam is just above 1.4 km, but the strong rain has 1000 times the
-// weight.
+// Up to 1.4 km above sea level, rain of 50 dBZ moves with 10 m/s; above this height, rain of 20 dBZ
+// moves with 40 m/s. The axis of the beam is just above 1.4 km, but the strong rain has 1000 times
+// the weight.
 TEST(VelocityTruth, StrongEchoOutweighsWeakEcho) {
     Scene scene = windy_scene(60);
     scene.instrument.beam_width_deg = 0.95;

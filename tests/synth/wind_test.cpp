@@ -59,8 +59,8 @@ TEST(Wind, ARankineVortexTurnsCounterclockwise) {
     expect_wind(wind, {50000, -5000, 0}, {0, 25});      // half the radius east of the center
     expect_wind(wind, {45000, 5000, 0}, {-50, 0});      // on the radius
     expect_wind(wind, {25000, -5000, 0}, {0, -25});     // twice the radius
-    expect_wind(wind, {57000, 11000, 0}, {-20, 15});    // 12 km east and 16 km north of it
-    expect_wind(wind, {45000, -1005000, 0}, {0.5, 0});  // 1,000 km south of it
+    expect_wind(wind, {57000, 11000, 0}, {-20, 15});    // 12 km east and 16 km north of the center
+    expect_wind(wind, {45000, -1005000, 0}, {0.5, 0});  // 1,000 km south of the center
     Vortex clockwise = rankine();
     clockwise.tangential_mps = -50;
     expect_wind({{}, {clockwise}}, {57000, 11000, 0}, {20, -15});
@@ -196,7 +196,7 @@ TEST(Wind, SeenFromAnotherPlaceIsTheSameWind) {
     vortex.motion = {12, -5};
     const Wind wind{{{0, {3, 8}}, {8000, {45, 0}}}, {vortex}};
     const Stand stand{15000, -40000, 90};
-    // North of the new plane is east of the old plane.
+    // North in the new plane is east in the old plane.
     const Wind there = seen_from(wind, stand);
     for (const Point& point : {Point{30000, 35000, 0}, {-38000, 29000, 4000}}) {
         const Motion old = wind_at(wind, {15000 + point.y_m, -40000 - point.x_m, point.z_m}, 200);

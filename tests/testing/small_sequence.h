@@ -1,5 +1,5 @@
 // tests/testing/small_sequence.h -- five volumes of a simulated radar. Tests that need no
-// particular values use them, and so run without the real volumes.
+// particular values use this sequence, so that they run without the real volumes.
 //
 // The radar is KBGM, which sees one storm in three sweeps. The volumes have nearly the same times
 // as the real volumes of sequence-kbgm.

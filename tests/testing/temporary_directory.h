@@ -5,7 +5,7 @@
 
 namespace stormcellar {
 
-namespace fs = std::filesystem;  // for all tests that include this
+namespace fs = std::filesystem;  // for all tests that include this header
 
 namespace testing {
 

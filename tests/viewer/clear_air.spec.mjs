@@ -4,7 +4,7 @@ import { shadesOf } from './pixels.mjs';
 
 test.use({ viewport: { width: 560, height: 420 } });
 
-// 2026-11-28: with little memory, clear air was drawn with the colors of storms, in which it is invisible.
+// 2026-11-28: with little memory, clear air was drawn with the colors of storms, which made it invisible.
 for (const [memory, isInParts] of [[256, false], [8, true]]) {
   test(`clear air is drawn in its colors with ${memory} MiB`, async ({ viewer, server: { station } }) => {
     await viewer.open(`domain=${station}&moment=REF&memory=${memory}&volume=0&maximum=1`);

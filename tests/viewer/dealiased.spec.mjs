@@ -80,7 +80,7 @@ const speedIn = (reading) => Number(/^(-?[\d.]+) m\/s/.exec(reading)?.[1]);
 const eyewall = ({ measured, dealiased }) =>
   viewOf(dealiased, [25, 80], [40, 95], (r, g) => dealiased.value(r, g) >= 42 && measured.value(r, g) < -5);
 
-test('one click unfolds the velocity, and another one folds it again', async ({ viewer, sweeps, above }) => {
+test('one click unfolds the velocity, and another click folds it again', async ({ viewer, sweeps, above }) => {
   const { view, radial, gate } = eyewall(sweeps);
   await viewer.open(`${above}&moment=VEL&${view}`);
   await viewer.keep('dealiased-before');

@@ -92,7 +92,7 @@ const test = base.extend({
 });
 
 test.describe('the editor of colors', { tag: '@full' }, () => {
-  test('takes the keyboard and edits nothing until the user does', async ({ editor }) => {
+  test('takes the keyboard, and edits nothing until the user edits', async ({ editor }) => {
     expect(await editor.focused()).toBe('Table');
     expect(await editor.table()).toBeNull();
   });
@@ -154,7 +154,7 @@ test.describe('the editor of colors', { tag: '@full' }, () => {
     expect(await last(), 'a finger drags a point').toBeGreaterThan(before);
   });
 
-  test('saves a file with which stormcellar frame draws the same, and a link keeps the colors', async ({ page, viewer, editor }) => {
+  test('saves a file with which stormcellar frame draws the same picture, and a link keeps the colors', async ({ page, viewer, editor }) => {
     const color = await editor.center(`${handle('color')}:nth-child(9)`);
     await viewer.settled(() => viewer.drag(color, [40, 0]));
     await editor.focus('least');

@@ -1,4 +1,5 @@
-// Checks 2D, the map of one tilt: how the user comes to it and back, that it never turns, and the choice of a tilt.
+// Checks 2D, the map of one tilt: how the user comes to the map and back, that the map never turns, and the choice of a
+// tilt.
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -35,7 +36,7 @@ async function placeAt(viewer, [x, y], [width, height] = [800, 600]) {
 }
 const expectSamePlace = (what, a, b) => a.forEach((km, i) => expect(Math.abs(km - b[i]), what).toBeLessThan(1));
 
-test('a button and keys lead to 2D and back, and the address keeps it', async ({ viewer, solid }) => {
+test('a button and keys lead to 2D and back, and the address tells 2D from 3D', async ({ viewer, solid }) => {
   await viewer.open(solid);
   await viewer.settled(() => viewer.key('m'));
   const before = await viewer.page.evaluate(() => location.hash);
@@ -150,7 +151,7 @@ for (const [width, height] of [[390, 844], [560, 420], [1000, 700], [1440, 900]]
     await viewer.keep(`flat-${width}`);
   });
 
-// Two volumes of KLOT that came in chunks. The first one repeats its low cuts (MRLE).
+// Two volumes of KLOT that came in chunks. The first volume repeats its low cuts (MRLE).
 const chunks = ['L2D_230', 'OPENRADAR_KLOT'].map((name) => join(data, 'chunks', name));
 const repeated = test.extend({
   address: async ({}, use, info) => {

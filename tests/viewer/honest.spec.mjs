@@ -21,7 +21,8 @@ const test = base.extend({
     await use({
       notice,
       nothing: () => expect(notice).toHaveText(''),
-      // Checks that the page says whether it follows the newest, as `isLive` wants.
+      // Checks that the button is pressed, which shows that the page follows the newest volume, if and only if
+      // `isLive`.
       live: (isLive = true) => expect(follow).toHaveAttribute('aria-pressed', String(isLive)),
     });
   },
@@ -171,7 +172,7 @@ test.describe('a server that does not answer', () => {
   });
 
   // 2026-11-28: the page did not ask again for the region.
-  test('draws later a region that was chosen in the meantime', async ({ viewer, relay, says, newest }) => {
+  test('is asked again for a region that was chosen in the meantime', async ({ viewer, relay, says, newest }) => {
     await viewer.open(newest);
     relay.isStopped = true;
     relay.endStreams();
@@ -193,8 +194,8 @@ test.describe('a server that does not answer', () => {
   });
 });
 
-// 2026-11-28: the page said that such a server does not answer. 2026-11-29: the page said so if a proxy refused only
-// the stream.
+// 2026-11-28: the page said that a server without a place for another stream does not answer. 2026-11-29: the page said
+// the same if a proxy refused only the stream.
 for (const [who, refusal] of [
   ['a server without a place for another stream', [503, 'text/plain; charset=utf-8', 'As many as there may be']],
   ['a proxy that refuses events', [403, 'text/html', '<h1>Forbidden</h1>']],
@@ -232,7 +233,7 @@ test('a grid that was made again while another moment was shown is loaded again'
 test.describe('a silent radar', () => {
   test('is reported until it sends again', async ({ viewer, relay, says, newest, server: { station } }) => {
     await viewer.open(newest);
-    // Wait until the page is live, because it then asks for the list of stations, in which none is silent.
+    // Wait until the page is live, because it then asks for the list of stations, in which no station is silent.
     await says.live();
     await tell(relay, 'station_silent', { station, silent_s: 840 });
     await expect(says.notice).toContainText(`${station} is silent: nothing came for 14 min`);
@@ -249,7 +250,7 @@ test.describe('a silent radar', () => {
     await says.nothing();
   });
 
-  // 2026-11-28: the page did not report such a radar.
+  // 2026-11-28: the page did not report a radar that was already silent.
   test('is reported if it fell silent before the page was opened', async ({ viewer, relay, says, newest, server: { station } }) => {
     relay.listed = changing(/^\/api\/v1\/stations/, ({ stations }) => {
       for (const one of stations ?? []) one.silent_s = one.station === station ? 840 : null;
@@ -338,7 +339,7 @@ test.describe('volumes that are listed but no longer exist', () => {
 
   // 2026-11-28: the timeline kept such volumes, and a loop waited for them. A moment that came later than the first
   // moment of its radar got no button.
-  test('leave the timeline, and a moment that comes later gets its button', async ({ viewer, relay, server }) => {
+  test('leave the timeline, and a moment that the radar sends later gets its button', async ({ viewer, relay, server }) => {
     const { station } = server;
     const time = (await viewer.data('drawn')).split('/').pop();
     const stored = (await server.grids([station])).filter(({ moment }) => moment === 'REF').length;

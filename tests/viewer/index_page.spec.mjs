@@ -105,7 +105,7 @@ const ago = (age_s) => ({ time: '2026-05-01T11:58:00Z', age_s });
 const station = (name, facts) => ({ station: name, newest_volume: null, newest_grid: null, moments: [], silent_s: null, ...facts });
 const listOf = (...stations) => ({ time: '2026-05-01T12:00:00.5Z', stations });
 
-test('a row has the ages of a station\'s data, and how long it is silent', async ({ page, live }) => {
+test('a row tells the ages of a station\'s data, and how long the station has been silent', async ({ page, live }) => {
   const domain = (name, part_of = null) => ({ domain: name, part_of, moments: [{ moment: 'REF', newest: '2026-05-01T11:56:00Z', age_s: 240 }] });
   await open(page, live, {
     stations: listOf(
@@ -137,7 +137,7 @@ test('ages are written in fitting units', async ({ page, live }) => {
   await expect(page.locator('td.volume b')).toHaveText(Object.values(ages));
 });
 
-test('data with a time in the future are named so, and do not make a station live', async ({ page, live }) => {
+test('the page says if data are from the future, and data from the future do not make a station live', async ({ page, live }) => {
   await open(page, live, {
     stations: listOf(station('KAAA', { newest_grid: ago(-180 * 86400) }), station('KBBB', { newest_volume: ago(-120) }), station('KCCC', { newest_volume: undefined })),
   });
@@ -179,14 +179,14 @@ test('an EventSource receives the events of a volume', async ({ page, live }) =>
 });
 
 test.describe('another server', () => {
-  test('cannot read ours', async ({ page, live, another }) => {
+  test('cannot read the data of our server', async ({ page, live, another }) => {
     await page.goto(another);
     const read = (url) => page.evaluate((url) => fetch(url).then((answer) => answer.text(), () => 'refused'), url);
     expect(await read('/'), 'its page reads itself').toContain('another server');
     expect(await read(`${live.address}/api/v1/stations`)).toBe('refused');
   });
 
-  test('cannot use another host name for ours', async ({ page, live }) => {
+  test('cannot reach our server by another host name', async ({ page, live }) => {
     const answer = await page.goto(`http://radar.example:${new URL(live.address).port}/`);
     expect(answer.status()).toBe(421);
   });

@@ -21,7 +21,8 @@ const scenes = [
   { name: 'supercell', station: 'KTLX', moment: 'REF', azimuth: 120, tilt: 78, zoom: 4, field: 40, exaggeration: 2, opacity: 1, at: [-30, 10, 5] },
 ];
 
-// Returns the memory of the page in MiB. Halved bricks need a grid in parts, and so little memory.
+// Returns the memory of the page in MiB. Halved bricks exist only in a grid in parts, which the page uses only with
+// little memory.
 const memoryOf = (rung) => (rung === 'halved bricks' ? 24 : 256);
 
 const stations = stationsText.split(',');

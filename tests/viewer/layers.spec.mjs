@@ -102,10 +102,10 @@ test.describe('layers', { tag: '@full' }, () => {
     const sweep = await above.pixels();
     expectSame(`sweep at ${elevations[1]} degrees`, compared(sweep, await ofSweep(elevations[1])), 0.05);
     const lower = compared(sweep, await ofSweep(elevations[0]));
-    expect(lower.off, 'pixels that differ from another sweep, so that this can fail').toBeGreaterThan(0.2 * lower.shown);
+    expect(lower.off, 'pixels that differ from another sweep, which the comparison must find').toBeGreaterThan(0.2 * lower.shown);
   });
 
-  test('a surface is where the greatest value of the column reaches the chosen one', async ({ viewer, above, strong }) => {
+  test('a surface is where the greatest value of the column reaches the chosen value', async ({ viewer, above, strong }) => {
     const { inside, picture } = strong;
     await viewer.show(`${above.view}&moment=REF&surface=45`);
     const surface = await above.pixels();
@@ -128,7 +128,7 @@ test.describe('layers', { tag: '@full' }, () => {
     // Allow some missing pixels, because a ray may step over a cell that just reaches the value.
     // 2026-11-29: without perspective, the part of a surface at depths below 0 was missing.
     expect(missing, 'missing pixels').toBeLessThanOrEqual(0.04 * inside);
-    expect(more, 'pixels of the surface beyond this echo').toBeLessThanOrEqual(0.005 * inside);
+    expect(more, 'pixels of the surface beyond the echo from 45 dBZ on').toBeLessThanOrEqual(0.005 * inside);
     expect(shape, 'pixels in the colors of VEL').toBeGreaterThan(30);
     expect(others, 'pixels in the colors of VEL beside the surface').toBe(0);
     expect(velocities.size, 'shades of VEL').toBeGreaterThan(10);
@@ -153,7 +153,7 @@ test.describe('layers', { tag: '@full' }, () => {
     await expect(reading, 'an arrow reads the plot').not.toHaveText(/^Maximum/);
   });
 
-  test('light agrees with the slicer, with the sun beside the camera', async ({ viewer, server, above, strong }) => {
+  test('light agrees with the slicer if the sun is beside the camera', async ({ viewer, server, above, strong }) => {
     const at = [Math.round(strong.eastKm), Math.round(strong.northKm), 4];
     const scene = { station: above.station, moment: 'REF', azimuth: 180, tilt: 65, zoom: 5, field: 40, exaggeration: 3, opacity: 1, at };
     await viewer.show(`${viewOf(scene)}&light=gradient`);
@@ -164,7 +164,7 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(other.p99, 'the difference with the sun elsewhere').toBeGreaterThan(mostDifference);
   });
 
-  test('a box cuts the volume, solid layers end it, and haze is behind it', async ({ viewer, above, strong }) => {
+  test('a box cuts the volume, solid layers hide what is behind them, and haze is behind the volume', async ({ viewer, above, strong }) => {
     const side = Math.round(width / 2 + (1000 * strong.eastKm) / above.cell); // eastern side of the box
     const shown = async () => {
       const one = await above.pixels();
@@ -203,7 +203,7 @@ test.describe('layers', { tag: '@full' }, () => {
     }
   });
 
-  test('X cuts a section, and drags move it and its ends', async ({ viewer, server, above: { station } }) => {
+  test('X cuts a section, and drags move the section and its ends', async ({ viewer, server, above: { station } }) => {
     await viewer.resize(560, 420);
     await viewer.open(`domain=${station}&moment=REF&azimuth=180&tilt=0&zoom=2&field-of-view=0&least=70`);
     await viewer.settled(() => viewer.key('x'));
@@ -224,7 +224,7 @@ test.describe('layers', { tag: '@full' }, () => {
     await viewer.settled(() => viewer.drag([435, 285], [-20, 20]));
     const third = (await viewer.told('section')).split(',').map(Number);
     expect(third.slice(0, 2), 'A stays').toEqual([latitudeA, longitudeA]);
-    expect([third[2] < latitudeB, third[3] < longitudeB], 'a drag of B moves it south and west without the tool').toEqual([true, true]);
+    expect([third[2] < latitudeB, third[3] < longitudeB], 'without the tool, a drag moves B south and west').toEqual([true, true]);
     await viewer.settled(() => viewer.press('section-radar'));
     const radial = (await viewer.told('section')).split(',').map(Number);
     const { stations } = await server.json(`stations?station=${station}`);

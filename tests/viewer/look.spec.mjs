@@ -119,7 +119,7 @@ test('mouse, keys and fingers move the view', async ({ viewer, server: { station
 });
 
 // The server fits the view. From the first view, a storm covers few pixels of the picture.
-test('Storms looks at the echo as frame does', async ({ viewer, server: { station } }) => {
+test('the button Storms looks at the echo as stormcellar frame does', async ({ viewer, server: { station } }) => {
   await viewer.resize(796, 532);
   await viewer.open(`domain=${station}&moment=REF&least=30`);
   const before = await viewer.number('zoom');
@@ -128,13 +128,13 @@ test('Storms looks at the echo as frame does', async ({ viewer, server: { statio
   const fitted = await viewer.told('look-at-km');
   await viewer.settled(() => viewer.key('0'));
   await viewer.settled(() => viewer.key('z'));
-  await expect.poll(() => viewer.told('look-at-km'), 'Z does so, too').toBe(fitted);
+  await expect.poll(() => viewer.told('look-at-km'), 'Z fits the view to the storms, too').toBe(fitted);
   await viewer.settled(() => viewer.key('2'));
   await viewer.settled(() => viewer.key('z'));
-  expect(await viewer.number('tilt'), 'from 2D, it leads to 3D').toBeGreaterThan(30);
+  expect(await viewer.number('tilt'), 'Z leads from 2D to 3D').toBeGreaterThan(30);
 });
 
-// 2026-11-30: the first view showed the whole grid, in which storms were small, from far away.
+// 2026-11-30: the first view showed the whole grid from far away, so that storms were small.
 test('the first view suits the storms, and an address with a view stays', async ({ page, viewer, server: { station } }) => {
   await viewer.resize(796, 532);
   await viewer.goto(`domain=${station}&moment=REF`);
@@ -145,11 +145,11 @@ test('the first view suits the storms, and an address with a view stays', async 
   const fitted = await page.evaluate(async (of) => (await fetch(`/api/v1/grids/${of}/REF/latest/view?width=796&height=532`)).json(), station);
   expect(await viewer.number('tilt')).toBeCloseTo(fitted.camera.tilt_deg, 1);
   expect(await viewer.number('exaggeration')).toBeCloseTo(fitted.exaggeration, 1);
-  await expect(viewer.byId('reset-view'), 'this is the first view').toBeHidden();
+  await expect(viewer.byId('reset-view'), 'Reset view is hidden in the first view').toBeHidden();
   await viewer.settled(() => viewer.drag([250, 300], [40, 0]));
   expect(await view()).not.toEqual(first);
   await viewer.settled(() => viewer.key('0'));
-  expect(await view(), 'Reset view leads back to it').toEqual(first);
+  expect(await view(), 'Reset view leads back to the first view').toEqual(first);
   await viewer.open(`domain=${station}&moment=REF&zoom=3`);
   expect(await viewer.number('zoom'), 'an address with a view').toBe(3);
 });
@@ -223,6 +223,7 @@ test("a click reads the column as the server's own probe does", async ({ page, v
     if (isRight) ++read;
     else report(`at ${at} the page says ${JSON.stringify(text)}, the server ${greatest}`);
   }
-  // Allow some differences, because the page rounds places to three decimals, which may be in the next cell.
+  // Allow some differences, because the page rounds places to three decimals, and a rounded place may be in the next
+  // cell.
   expect(read, 'readings of 7 that agree with the server').toBeGreaterThanOrEqual(5);
 });

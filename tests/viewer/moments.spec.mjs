@@ -3,7 +3,7 @@ import { expect, test } from './fixtures.mjs';
 
 const sizes = [[390, 800], [560, 420], [1000, 700], [1440, 900], [3840, 2160]];
 
-test('derived moments are in a list that names them, by mouse and by keys', async ({ viewer, server: { station } }) => {
+test('mouse and keys choose derived moments from a list that names them', async ({ viewer, server: { station } }) => {
   await viewer.resize(1000, 700);
   await viewer.open(`domain=${station}&moment=REF&least=70`);
   const [open, list] = [viewer.byId('derived'), viewer.byId('derived-list')];
@@ -17,7 +17,7 @@ test('derived moments are in a list that names them, by mouse and by keys', asyn
   await expect(viewer.byId('title')).toContainText('Specific differential phase');
   await expect(open).toHaveText(/^KDP/);
   await expect(open).toHaveAttribute('aria-pressed', 'true');
-  // The same by keys.
+  // Choose by keys, too.
   await open.focus();
   await viewer.key('Enter');
   await viewer.key('Tab');

@@ -54,7 +54,7 @@ test('a newcomer shares a section through the hook', async ({ page, context, vie
   await act('Top', () => press(viewer, 'Top'));
   actions.push('Settings');
   await press(viewer, 'Settings');
-  // The page has fitted its view to all storms, so the one with the hook is south-east of the middle.
+  // The page has fitted its view to all storms, so the storm with the hook is south-east of the middle.
   const seen = await redNear(viewer, [510, 400], 70);
   const storm = [330, 270];
   await act('drag the storm to the middle', () => viewer.drag([330, 330], [storm[0] - seen[0], storm[1] - seen[1]]));

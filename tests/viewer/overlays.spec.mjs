@@ -1,4 +1,5 @@
-// Checks overlays: files that the user adds, and the server's. They are at their places, in force at their times.
+// Checks overlays: files that the user adds, and the server's. Each overlay must be at its place, and in force at its
+// times.
 import { expect, test as base } from './fixtures.mjs';
 import { decoded } from './pixels.mjs';
 
@@ -119,7 +120,7 @@ test('a damaged file is refused with the place of its damage', async ({ viewer, 
   await looks.drop('bad.txt', 'Title: a\nColor: red\n');
   await expect(says).toHaveText("bad.txt is not shown: line 2: 'red' is no color such as 255 0 0.");
   looks.expectLine(await looks.picture());
-  // A good file replaces the message, and a file of the same name the layer.
+  // A good file clears the message, and a file of the same name replaces the layer.
   const [latitude, longitude] = scene.center;
   await viewer.page.locator('#overlays input[type="file"]').setInputFiles({
     name: 'good.geojson',

@@ -33,7 +33,7 @@ async function sectionAbout([eastKm, northKm], server) {
 }
 
 // Returns the number of pixels that are not black, and the number of pixels that differ between two pictures. Some
-// pixels differ at edges of colors, which may be a pixel aside.
+// pixels differ, because edges of colors may be a pixel aside.
 function differing(one, other) {
   let [shown, off] = [0, 0];
   for (let i = one.length % 3; i < one.length; i += 3) {

@@ -93,7 +93,7 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     const came = viewer.page.waitForEvent('requestfinished', (request) => request.url().includes('/api/v1/map?') && isWide(request.url()));
     for (let times = 0; times < 10; ++times) await viewer.key('-');
     await came;
-    // Draw again, which would ask again if the page did not keep the land.
+    // Draw again. The page would then ask again if it did not keep the land.
     await viewer.frames();
     expect(ofEarth()).toBe(1);
     await viewer.keep('earth');
@@ -147,7 +147,8 @@ test.describe('around a station', { tag: '@full' }, () => {
       if (seen ? hovered.startsWith(`${seen.value} dBZ at`) : /^(Lowest level|below the shown range|too faint)/.test(hovered)) ++told;
       else report(`at ${at} the page says ${JSON.stringify(hovered)}, the server ${JSON.stringify(seen)}`);
     }
-    // Allow some differences, because the reading rounds places to three decimals, which may be in the next cell.
+    // Allow some differences, because the reading rounds places to three decimals, and a rounded place may be in the
+    // next cell.
     expect(told, 'pixels of 6 that tell the cell').toBeGreaterThanOrEqual(4);
   });
 

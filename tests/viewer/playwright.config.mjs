@@ -66,7 +66,7 @@ export default defineConfig({
   outputDir: join(resolve(root, process.env.STORMCELLAR_BUILD || 'build/release'), 'tests/viewer/results'),
   workers: 1, // a picture already uses all processors
   forbidOnly: true,
-  retries: 1, // a check that passes then is reported as flaky
+  retries: 1, // a check that passes at the second try is reported as flaky
   timeout: 600_000, // long enough while the machine also compiles
   expect: { timeout: 30_000 },
   reporter: 'list',

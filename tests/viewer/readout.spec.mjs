@@ -99,7 +99,7 @@ test.describe('the pointer', { tag: '@full' }, () => {
       }
     }
     const told = await under(viewer, [core.x, core.y]);
-    expect(parseFloat(told), `over the reddest pixel it reads ${told}`).toBeGreaterThanOrEqual(40);
+    expect(parseFloat(told), `over the reddest pixel the pointer reads ${told}`).toBeGreaterThanOrEqual(40);
     await viewer.click([core.x, core.y]);
     const reading = viewer.byId('reading');
     await expect(reading).toContainText('Maximum');

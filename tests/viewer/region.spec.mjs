@@ -41,7 +41,7 @@ async function expectSites(viewer, left, inPicture) {
   expect(await marked(), 'dots').not.toContain(left);
 }
 
-test('a box over two sites opens a region of them', async ({ page, viewer, sites: [one, other, third], region }) => {
+test('a box over two sites opens a region of these sites', async ({ page, viewer, sites: [one, other, third], region }) => {
   for (const site of [one, other]) await expect(viewer.byId('title')).toContainText(site);
   const sites = viewer.byId('sites-told');
   await expect(sites).toBeVisible();

@@ -32,7 +32,7 @@ for (const [width, height] of [[390, 800], [560, 420], [1000, 700], [1440, 900]]
     expect(box.x + box.width).toBeLessThanOrEqual(width);
     expect(box.x >= head.x + head.width || box.y >= head.y + head.height, 'the list is beside or below the head').toBe(true);
     await viewer.keep(`scan-${width}`);
-    // The other panels close it, and Escape too.
+    // Other panels and Escape close the list.
     await viewer.byId('layers-open').click();
     await expect(scan).toBeHidden();
     await viewer.byId('scan-open').click();

@@ -74,7 +74,7 @@ test.describe('the page says what it does not draw', () => {
     await expect(told(viewer)).not.toContainText('loading');
     await expect(told(viewer)).toContainText('could not be loaded');
     await page.unroute(/\/sweeps\//);
-    await expect(told(viewer), 'it is asked for again').toContainText(`sweep of ${station}: `);
+    await expect(told(viewer), 'the sweep is asked for again').toContainText(`sweep of ${station}: `);
   });
 
   // 2026-11-28: after one failed answer, the page said forever that there is no such moment.
@@ -85,7 +85,7 @@ test.describe('the page says what it does not draw', () => {
     await viewer.show(`${above}&surface=20&surface-moment=VEL`);
     await expect(told(viewer)).toContainText('VEL could not be loaded');
     await page.unroute(/\/VEL\/.*\/packed/);
-    await expect(told(viewer), 'it is asked for again').toHaveText(/m\/s$/);
+    await expect(told(viewer), 'the surface is asked for again').toHaveText(/m\/s$/);
   });
 });
 
@@ -141,8 +141,8 @@ test.describe('a loop', { tag: '@sequence' }, () => {
         return count;
       };
     });
-  // Plays all times twice. Checks that the page never shows an empty map, and returns what it says of its layers at
-  // each time.
+  // Plays all times twice. Checks that the page never shows an empty map, and returns what the page says of its layers
+  // at each time.
   async function play(viewer, view) {
     const { page } = viewer;
     await viewer.open(view);

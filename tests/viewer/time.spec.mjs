@@ -30,12 +30,12 @@ test('the newest volume is shown, and steps go back', async ({ viewer, newest })
   expect((await shown(viewer)) < second, 'a step shows the volume before').toBe(true);
 });
 
-test('keys follow the newest, set a loop and step in it', async ({ viewer, newest }) => {
+test('keys follow the newest volume, set a loop, and step in the loop', async ({ viewer, newest }) => {
   await viewer.settled(() => viewer.press('earlier'));
   await viewer.settled(() => viewer.press('earlier'));
   const third = await shown(viewer);
   await viewer.settled(() => viewer.key('l'));
-  expect(await viewer.told('time'), 'L follows the newest').toBe('latest');
+  expect(await viewer.told('time'), 'L follows the newest volume').toBe('latest');
   await viewer.settled(() => viewer.key(','));
   await viewer.key('>');
   await viewer.settled(() => viewer.key(','));
@@ -127,7 +127,7 @@ test('frames between volumes are made, and the title says so', async ({ viewer, 
 });
 
 // 2026-11-28: the page said "no volume of" a time that has a volume.
-test('a link to a volume among frames in between shows it', async ({ viewer, view, times }) => {
+test('a link to a volume shows the volume, although there are frames beside it', async ({ viewer, view, times }) => {
   await viewer.open(`${view}&time=${times[1]}&between=60`);
   expect((await shown(viewer)).endsWith(times[1]), await shown(viewer)).toBe(true);
   expect(await viewer.text('notice')).toBe('');
@@ -144,7 +144,7 @@ test('pausing keeps the newest volume', async ({ viewer, times, newest }) => {
 });
 
 // 2026-11-28: the page called the later volume the nearest.
-test('a link to a time between two volumes shows the nearest', async ({ viewer, view, times }) => {
+test('a link to a time between two volumes shows the nearest volume', async ({ viewer, view, times }) => {
   const wanted = new Date(Date.parse(times[1]) + 60_000).toISOString();
   await viewer.open(`${view}&time=${wanted}`);
   expect((await shown(viewer)).endsWith(times[1]), await shown(viewer)).toBe(true);

@@ -3,11 +3,11 @@
 //   viewer_difference [--sun AZIMUTH,ELEVATION] GRID.scg PICTURE.ppm AZIMUTH TILT ZOOM
 //     FIELD_OF_VIEW EXAGGERATION OPACITY LOOK_AT_X LOOK_AT_Y LOOK_AT_Z [--colors TABLE]
 //     [--slices N] [SLICER.png]
-// The picture shows the volume over black, and lit by its gradient if a sun is given. Distances are
-// in meters. Prints the differences in CIEDE2000, and the number of pixels that are not black in
-// both pictures; other pixels do not count. TABLE is a name or a file, as for `stormcellar frame
-// --colors`; by default it is the moment's usual table. N is the number of slices. If SLICER.png is
-// given, writes the slicer's picture there.
+// The picture shows the volume over black. If a sun is given, the volume is lit by its gradient.
+// Distances are in meters. Prints the differences in CIEDE2000, and the number of pixels that are
+// not black in both pictures; other pixels do not count. TABLE is a name or a file, as for
+// `stormcellar frame --colors`; by default it is the moment's usual table. N is the number of
+// slices. If SLICER.png is given, writes the slicer's picture there.
 #include <array>
 #include <cstdio>
 #include <exception>
@@ -38,7 +38,7 @@ bool is_black(const std::uint8_t* pixel) {
     return pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0;
 }
 
-// Both pictures without the pixels that are black in both. Each is one row.
+// Both pictures, without the pixels that are black in both pictures. Each is one row.
 struct Shown {
     Image one, other;
 };

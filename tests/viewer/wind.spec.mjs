@@ -22,7 +22,7 @@ function changesBetween(one, other) {
 
 test('one click puts beam glyphs on a sweep of velocities', async ({ viewer, above }) => {
   await viewer.open(`${above}&moment=VEL&volume=0`);
-  expect(viewer.asked('/view/layers.js'), 'the program is not loaded before').toBe(0);
+  expect(viewer.asked('/view/layers.js'), 'the program is not loaded before the click').toBe(0);
   await viewer.settled(() => viewer.press('layer-glyphs'));
   expect(viewer.asked('/view/layers.js')).toBe(1);
   const glyphs = Number(await viewer.data('glyphs'));
@@ -36,7 +36,7 @@ test('one click puts beam glyphs on a sweep of velocities', async ({ viewer, abo
   await viewer.open(`domain=KTLX&moment=VEL&volume=0&elevation=0.5&glyphs=1&azimuth=200&tilt=65&zoom=3`);
   expect(Number(await viewer.data('glyphs'))).toBeGreaterThan(60);
   await viewer.keep('wind-glyphs-aslant');
-  // Reflectivity is no wind.
+  // Reflectivity has no beam glyphs.
   await viewer.settled(() => viewer.press('moment-REF'));
   expect(await viewer.data('glyphs')).toBe('0');
 });

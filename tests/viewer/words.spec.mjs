@@ -58,7 +58,7 @@ test('the reading of a click names the nearest city and the radar', async ({ vie
   await expect(reading).toContainText(new RegExp(`km at \\d+° from ${station}`));
 });
 
-test('each button of a moment has its full name as a tooltip, and so has each other button', async ({ viewer, server: { station } }) => {
+test('the tooltip of a moment names it in full, and each other button has a tooltip, too', async ({ viewer, server: { station } }) => {
   await viewer.open(near(station));
   await expect(viewer.byId('moment-REF')).toHaveAttribute('title', 'Reflectivity');
   await expect(viewer.byId('moment-VEL')).toHaveAttribute('title', /^Radial velocity: negative toward the radar/);
@@ -69,7 +69,7 @@ test('each button of a moment has its full name as a tooltip, and so has each ot
   expect(without, 'buttons without a tooltip').toEqual([]);
 });
 
-test('keys work after a click on a button, and typing does not press them', async ({ viewer, server: { station } }) => {
+test('keys work after a click on a button, but do not act while the user types', async ({ viewer, server: { station } }) => {
   await viewer.open(near(station));
   await viewer.byId('layers-open').click();
   await expect(viewer.byId('layers-open')).toBeFocused();

@@ -38,7 +38,7 @@ TEST(AnswerBudget, OneClientHoldsHalfAtMost) {
     // 2026-11-28: 200 slow answers shared six objects. Clients that were cut off asked again, so no
     // object was ever released.
     EXPECT_FALSE(budget.take("greedy", b))
-        << "the client holds this text already, but others wait for room";
+        << "the client holds this text already, but other clients wait for room";
     budget.give_back("greedy", a);
     EXPECT_FALSE(budget.take("greedy", a)) << "the room is for other clients";
     EXPECT_TRUE(budget.take("fourth", e));

@@ -194,11 +194,12 @@ TEST(ApiSweeps, HaveTheDealiasedVelocityBesideTheVelocity) {
                           2 * made.codes16.size()),
               0);
     EXPECT_EQ(doors.get(path + "/0/VELD").status, 404U) << "a surveillance sweep has no velocity";
-    EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes) << "the second answer is the kept one";
+    EXPECT_EQ(body_of(doors.get(path + "/1/VELD")), bytes)
+        << "the second answer is the kept answer";
 }
 
-// Gates without echo that is probably no weather are those that the library leaves, and the header
-// gives the share of the sweep that is left out.
+// With ?quality=0.5, the answer has the gates that the library keeps at this limit, and its header
+// has the share of the sweep that is left out.
 TEST(ApiSweeps, LackEchoThatIsProbablyNoWeatherOnRequest) {
     STORMCELLAR_NEED_DATA();
     const ServedVolumes volumes;

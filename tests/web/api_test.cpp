@@ -169,7 +169,7 @@ TEST_F(Api, ProbesGiveTheGridsOwnCells) {
     }
 }
 
-// The camera is that of a frame of this size: each number equals that of fit_view().
+// The answer has the numbers of fit_view() for a frame of this size.
 TEST_F(Api, AViewIsTheOneThatAFrameHas) {
     const std::string path = ServedGrids::noon_path;
     const auto read = json_of(served_.get(path + "/view?width=900&height=600"));

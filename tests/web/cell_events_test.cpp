@@ -15,7 +15,7 @@ using nlohmann::json;
 
 class EventsOfCells : public ::testing::Test {
   protected:
-    // Reads what the listener has, and returns the events of cells among it.
+    // Reads all events that the listener has, and returns the events of cells.
     std::vector<json> cells_heard() {
         for (std::string more = listener_->read(1 << 16); !more.empty();
              more = listener_->read(1 << 16))
@@ -49,7 +49,8 @@ TEST_F(EventsOfCells, TellWhereAndHowMany) {
     EXPECT_EQ(heard[0]["grid"], "2024-11-22T12:00:00Z");
     EXPECT_EQ(heard[0]["count"], 1);
     EXPECT_EQ(heard[0]["path"], "/api/v1/cells?area=KTLX");
-    EXPECT_NE(stream_.find("-1\nevent: cells"), std::string::npos) << "numbered as other events";
+    EXPECT_NE(stream_.find("-1\nevent: cells"), std::string::npos)
+        << "events of cells are numbered as other events are";
 }
 
 TEST_F(EventsOfCells, TellOfEachGridOnce) {

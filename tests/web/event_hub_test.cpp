@@ -77,7 +77,7 @@ TEST(EventHub, AnIdThatIsTooOldOrOfAnotherRunResets) {
         const std::string heard = read_all(*hub->listen({}, id));
         EXPECT_EQ(ids_in(heard), (Ids{"reset"})) << id;
         EXPECT_NE(heard.find("id: abc-5\nevent: reset\n"), std::string::npos)
-            << "a client that has this event goes on after it";
+            << "a client that has this event goes on with the next event";
     }
     EXPECT_EQ(hub->resets(), 5u);
     EXPECT_EQ(ids_in(read_all(*hub->listen({}, "abc-3"))), (Ids{"abc-4", "abc-5"}))
@@ -123,7 +123,7 @@ TEST(EventHub, WakesOnceAndOnlyThoseWhoAreConcerned) {
         read_all(*listener);
     hub->publish(of_station("KTLX"));
     hub->publish(of_station("KTLX"));
-    EXPECT_EQ(tulsa_woken, 1) << "the hub wakes a listener only once before it reads";
+    EXPECT_EQ(tulsa_woken, 1) << "the hub wakes a listener only once before the listener reads";
     EXPECT_EQ(nation_woken, 0);
     EXPECT_EQ(both_woken, 1);
     EXPECT_EQ(ids_in(read_all(*both)).size(), 2u) << "the listener gets each event once";

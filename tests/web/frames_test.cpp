@@ -199,7 +199,7 @@ TEST_F(Frames, OfSweepsAreKeptAndHavePanelsAndFormats) {
         << "the answer lists the angles of the volume";
 }
 
-// Kept grids have the echo that the service left in them, so only sweeps take the parameter.
+// Kept grids have only the echo that the service left in them, so `quality` applies only to sweeps.
 TEST_F(Frames, OfSweepsLackEchoThatIsProbablyNoWeatherOnRequest) {
     const auto colored = [&](const std::string& quality) {
         const Answer answer = get("/frames/KTLX.tif?product=ppi&geotiff=states" + quality);

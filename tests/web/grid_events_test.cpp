@@ -149,7 +149,8 @@ TEST_F(EventsOfGrids, WhatLayThereBeforeIsNoNews) {
     EXPECT_EQ(types(events()), Types{}) << "a grid with these bytes was already reported";
     GridEvents later(grids_, book_, file_clock_ns() + 1'000'000'000);
     const std::vector<CacheChange> changes{ref};
-    EXPECT_TRUE(later.of(changes, noon).empty()) << "the grid was written before that server began";
+    EXPECT_TRUE(later.of(changes, noon).empty())
+        << "the grid was written before the later server began";
     const std::vector<CacheChange> came{{CacheEvent::came, ref.grid}};
     const auto back = later.of(came, noon);
     ASSERT_EQ(back.size(), 1u) << "a disk was mounted, so clients must request their lists again";

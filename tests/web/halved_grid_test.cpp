@@ -14,7 +14,7 @@ namespace {
 using grid::CellStatus;
 
 // Returns a grid of odd sizes with patches of every state, so that it has bricks of each kind. With
-// `has_ambiguous`, some bricks are ambiguous alone.
+// `has_ambiguous`, some bricks have only ambiguous cells.
 grid::Grid patched_grid(bool has_ambiguous = false) {
     grid::Grid made;
     made.spec.nx = 53;

@@ -206,7 +206,7 @@ TEST_F(HostileClients, ChangedRequestsDoNotHurt) {
         }
         RawClient client(port_, 0, address_of(i % 1000));
         client.send(text);
-        if (below(4) == 0) continue;  // it leaves without waiting
+        if (below(4) == 0) continue;  // leaves without waiting
         const std::string answer = client.read_until("\r\n\r\n", 20ms);
         const int status = status_in(answer);
         EXPECT_NE(status, 500) << text;

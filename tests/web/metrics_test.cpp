@@ -155,7 +155,7 @@ TEST_F(Metrics, GoOnAfterAReload) {
     EXPECT_EQ(status_in(RawClient::get(port_, "/metrics")), 404);
 }
 
-// docs/web/metrics.md must name each metric of the server, and no others.
+// docs/web/metrics.md must name each metric of the server, and no other metrics.
 TEST_F(Metrics, StandInTheManual) {
     const auto bytes = read_file(testing::source_directory() / "docs/web/metrics.md");
     ASSERT_TRUE(bytes);

@@ -75,7 +75,8 @@ TEST_F(RainViewer, TilesShowTheTableOfTheirScheme) {
     }
     EXPECT_GT(shown, 5000);
     EXPECT_GT(strong, 100);
-    EXPECT_EQ(wrong, 0) << "bounds of the classes are whole numbers, so rounding down keeps them";
+    EXPECT_EQ(wrong, 0)
+        << "bounds of the classes are whole numbers, so rounding down keeps the class";
     EXPECT_EQ(tile("/512/8/58/100/2/1_1.png").width, 512);
     const Answer webp = get("/v2/radar/925775781/256/8/58/100/2/0_0.webp");
     EXPECT_EQ(header_of(webp, "Content-Type"), "image/webp");

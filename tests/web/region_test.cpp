@@ -140,14 +140,14 @@ TEST_F(Region, TakesVolumesNearTheInstantAlone) {
     commit(grid_of("KBGM", value_of_kbgm, testing::noon + std::chrono::minutes{14}));
     grids_->refresh();
     EXPECT_EQ(region_times(*grids_, made).size(), 4u)
-        << "the instants include those between two volumes of a site";
+        << "instants between two volumes of a site are included";
     const auto late = make_region(*grids_, made, testing::noon + std::chrono::hours{2});
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().code, ErrorCode::not_found);
 }
 
 // Two volumes, with middles at 12:02 and 12:08, show an echo that moves at 20 m/s. At 12:05 the
-// echo is halfway between; one volume alone would show it 3.6 km from there.
+// echo is halfway between; one volume alone would show the echo 3.6 km from this place.
 TEST_F(Region, EchoIsMovedToTheInstant) {
     const std::vector<grid::Blob> blobs = {
         {-60, -40, 25, 55, 20, 5}, {30, 50, 20, 50, 20, 5}, {60, -50, 30, 45, 20, 5}};

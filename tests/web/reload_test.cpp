@@ -101,7 +101,7 @@ TEST_F(Reload, NobodyWaitsForTheOldServersEnd) {
         of_the_new_one += answer.find("Access-Control-Allow-Origin") != std::string::npos ? 1 : 0;
     }
     EXPECT_TRUE(reloaded.get());
-    EXPECT_GE(of_the_new_one, 3) << "the new server answers while the old one still ends";
+    EXPECT_GE(of_the_new_one, 3) << "the new server answers while the old server still ends";
 }
 
 // 2026-11-28: a client that had connected just before a reload was cut off without an answer.

@@ -185,7 +185,7 @@ TEST_F(S3, AnObjectHasTheBytesOfTheFile) {
     EXPECT_EQ(answer.status, 200U);
     EXPECT_TRUE(body_of(answer) == whole);
     const std::string tag = header_of(answer, "ETag");
-    EXPECT_NE(tag.find('-'), tag.npos) << "no client may take it for an MD5";
+    EXPECT_NE(tag.find('-'), tag.npos) << "no client may take the tag for an MD5";
     EXPECT_EQ(texts("?list-type=2", "Contents/ETag").at(2), tag);
     const Answer part = get(object, {{"Range", "bytes=24-27"}});
     EXPECT_EQ(part.status, 206U);

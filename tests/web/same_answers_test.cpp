@@ -1,5 +1,5 @@
 // Tests that two machines with the same volume answer with the same entity tags and bytes, so a
-// viewer sees no difference when a proxy switches between them.
+// viewer sees no difference when a proxy switches between the machines.
 #include <gtest/gtest.h>
 
 #include "tests/web/asked.h"

@@ -3,7 +3,7 @@
 //
 //   KTLX   2017-01-01 03:00:27, 488,081 bytes; 1991-07-20 16:05:18, compressed with gzip
 //   KABR   2005-01-01 00:07:45, compressed with gzip
-//   KLOT   2026-03-28 20:14:57, the first of 55 chunks; take_chunks() adds further ones
+//   KLOT   2026-03-28 20:14:57, the first of 55 chunks; take_chunks() adds further chunks
 #pragma once
 
 #include <algorithm>

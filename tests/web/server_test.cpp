@@ -127,7 +127,7 @@ TEST_F(WebServer, LetsNamedOriginsEmbedItsPagesAlone) {
     EXPECT_NE(page.find("frame-ancestors https://a.example http://b.example:8080; form-action"),
               std::string::npos);
     EXPECT_NE(page.find("Cross-Origin-Resource-Policy: cross-origin"), std::string::npos)
-        << "else a page with an embedder policy could not show ours";
+        << "else a page with an embedder policy could not show our page";
     EXPECT_EQ(page.find("Access-Control-Allow-Origin"), std::string::npos);
     EXPECT_NE(get("/tile").find("Cross-Origin-Resource-Policy: same-origin"), std::string::npos);
 }

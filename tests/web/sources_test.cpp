@@ -43,7 +43,7 @@ std::size_t count_open_databases(const fs::path& catalog) {
 }
 
 // 2026-11-27: each part had its own reader. The API's reader kept fewer databases open than there
-// are radars, so it closed and opened all of them for each list of stations.
+// are radars, so it closed and opened all databases for each list of stations.
 TEST(WebSources, AllPartsShareOneReaderWithEveryStationsDatabase) {
     constexpr std::size_t stations = 40;
     const testing::TemporaryDirectory directory;

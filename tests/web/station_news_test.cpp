@@ -67,7 +67,7 @@ TEST(StationNews, TellsOnceThatAStationIsSilentAndThatItSpeaks) {
 }
 
 // 2026-11-28: after a clock that was ahead had been set back, no station counted as silent for as
-// long as it had been ahead.
+// long as the clock had been ahead.
 TEST(StationNews, AClockThatIsSetBackHidesNoSilence) {
     StationNews book(20min);
     book.note("KTLX", std::nullopt, start + 2h, start + 2h);
@@ -86,7 +86,7 @@ TEST(StationNews, WhatWasSilentBeforeTheServerBeganIsNoNews) {
 }
 
 // 2026-11-28: a station with grids alone counted as silent from the server's start to its first new
-// grid, and no event reported it if no grid came.
+// grid, and no event reported the silence if no grid came.
 TEST(StationNews, ANewVolumeSpeaksForAStationOfWhichNothingCameYet) {
     StationNews book(20min);
     book.note("KTLX", start, std::nullopt, start + 5min);

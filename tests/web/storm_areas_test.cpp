@@ -77,7 +77,7 @@ TEST_F(StormAreas, RefuseUnknownNamesAndTooManyStations) {
     EXPECT_EQ(areas(), "area: 33 areas have recent grids of REF; name one");
 }
 
-// A station whose clock is wrong must not hide the others.
+// A station whose clock is wrong must not hide the other stations.
 TEST_F(StormAreas, IgnoreTimesOfTheFuture) {
     commit("KBGM", 0);
     ASSERT_TRUE(testing::commit_sized(store_, "KOKX", now_utc() + 24h));

@@ -100,13 +100,13 @@ TEST_F(SweepLayers, FromAfarAPixelShowsTheStrongestGate) {
     EXPECT_GT(shown, 100);
 }
 
-// The raw volume has moments of which the cache has no grid.
+// The raw volume has moments that no grid of the cache has.
 TEST_F(SweepLayers, AnyMomentOfTheRawVolumeCanBeShown) {
     const render::Image width = tile("ppi.SW/latest/8/58/100.png");
     const render::Image dealiased = tile("ppi.VELD/latest/8/58/100.png");
     EXPECT_NE(width.rgba, dealiased.rgba);
     EXPECT_NE(dealiased.rgba, tile("ppi.VEL/latest/8/58/100.png").rgba);
-    EXPECT_EQ(get("ppi.ZDR/latest/8/58/100.png").status, 404U) << "the radar had none in 1999";
+    EXPECT_EQ(get("ppi.ZDR/latest/8/58/100.png").status, 404U) << "the radar had no ZDR in 1999";
 }
 
 TEST_F(SweepLayers, TileJsonHasTheReachOfTheSweep) {

@@ -34,7 +34,7 @@ class ThreddsLevel3 : public ::testing::Test {
         configured.files = directory_.path();
         collection_ = make_level3_collection(configured, {});
     }
-    // Returns the nearest start by comparing all.
+    // Returns the nearest start by comparing all starts.
     [[nodiscard]] std::optional<UtcTime> nearest_of_all(UtcTime time,
                                                         std::chrono::milliseconds within) const {
         std::optional<UtcTime> best;

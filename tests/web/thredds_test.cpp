@@ -284,7 +284,8 @@ TEST_F(Thredds, PlacesOfTheConfigurationCountBeforeTheTable) {
     EXPECT_EQ(text_between(kftg, "<elevation>", "<"), "1675.0");
     EXPECT_EQ(text_between(kftg, "<latitude>", "<"), "39.78");
     EXPECT_EQ(text_between(kftg, "<longitude>", "<"), "-104.53");
-    EXPECT_EQ(count_in(query("?stn=KABR&temporal=all"), "urlPath"), 0U) << "it is not named";
+    EXPECT_EQ(count_in(query("?stn=KABR&temporal=all"), "urlPath"), 0U)
+        << "the station is not named";
 }
 
 TEST_F(Thredds, ADeniedBeginningIs403) {

@@ -59,7 +59,7 @@ TEST_F(Tiles, EachPixelShowsTheCellAtItsPlace) {
     expect_pixels(tile("8/58/101.png", "composite.VEL"), *velocity, 8, 58, 101);
 }
 
-// The small grid has bricks of ambiguous cells alone, and ambiguous cells between others.
+// The small grid has bricks of only ambiguous cells, and ambiguous cells between other cells.
 TEST(TilesOfDealiasedVelocity, ShowAmbiguousCellsHalfTransparent) {
     ServedGrids served;
     const grid::Grid grid = testing::ambiguous_grid();
@@ -84,7 +84,8 @@ TEST(TilesOfDealiasedVelocity, ShowAmbiguousCellsHalfTransparent) {
             ambiguous += image.at(x, y) == half_transparent ? 1 : 0;
     EXPECT_GT(ambiguous, 200);
 
-    // From afar, four cells become one: a value if one of them has one, else ambiguous.
+    // Seen from afar, four cells become one: a value if any of the four has a value, else
+    // ambiguous.
     render::FlatField four(2, 2);
     four.put(0, grid::CellStatus::ambiguous, 0);
     four.put(1, grid::CellStatus::range_folded, 0);

@@ -152,7 +152,7 @@ TEST_F(Volumes, OfEachRowIsSaidUnderWhichNameItIsGiven) {
     EXPECT_EQ(given("KTLX"), "KTLX20170101_030027_V06");
     EXPECT_EQ(given("KLOT"), "KLOT20260328_201457_V06");
     EXPECT_EQ(given("KABR"), "none");
-    // A file with two volumes is served for both.
+    // A file with two volumes is served for both volumes.
     const testing::TemporaryDirectory made;
     for (const char* name : {"KBGM20050822_024414.gz", "KBGM20050822_025001.gz"})
         std::ofstream(made / "two", std::ios::binary | std::ios::app)

@@ -1,4 +1,4 @@
-// Reads tables [web] as an operator may write them, and compares the complaints.
+// Reads [web] tables as an operator may write them, and checks the error messages.
 #include "web/config/web_config.h"
 
 #include <fstream>

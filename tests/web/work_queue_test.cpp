@@ -66,7 +66,7 @@ TEST_F(SharedQueue, ClientsTakeTurns) {
 }
 
 // 2026-11-28: among clients with one request at a time, the client whose name sorts first always
-// went first, and the others waited for as long as this client sent requests.
+// went first, and the other clients waited for as long as this client sent requests.
 TEST_F(SharedQueue, WhoCameFirstGoesFirstWhateverItsName) {
     for (const char* name : {"z", "m", "a"})
         ASSERT_TRUE(ask(name, name));

@@ -84,7 +84,8 @@ TEST_F(ZarrTest, FieldsNameTheirProjectionForGdal) {
     }
     EXPECT_FALSE(all.at("z/.zattrs").contains("_CRS"));
     const auto three = zarr_json(get3("/zarr3/KBGM/REF/REF/zarr.json"));
-    EXPECT_FALSE(three.at("attributes").contains("_CRS")) << "xarray cannot write it to netCDF";
+    EXPECT_FALSE(three.at("attributes").contains("_CRS"))
+        << "xarray cannot write this attribute to netCDF";
 }
 
 // 2026-11-28: a reverse proxy could keep no chunk.
@@ -234,7 +235,7 @@ TEST_F(ZarrTest, AProductSaysWhatItAssumesInBothVersions) {
                                    [&](const auto& one) { return one.at("product") == name; });
     };
     EXPECT_TRUE(named("posh"));
-    EXPECT_FALSE(named("rain-total")) << "it is made of several grids";
+    EXPECT_FALSE(named("rain-total")) << "a rain total is made of several grids";
     EXPECT_FALSE(named("rotation")) << "the domain has no grids of AZSH";
 }
 

@@ -1,5 +1,5 @@
-// tests/fetch/feed/chunk_bucket.h -- the public chunk bucket on loopback. It answers like Amazon
-// S3, with the faults that a test sets.
+// tests/fetch/feed/chunk_bucket.h -- the public chunk bucket on loopback. The bucket answers like
+// Amazon S3, with the faults that a test sets.
 #pragma once
 
 #include <chrono>
@@ -24,8 +24,8 @@ class ChunkBucket {
 
     [[nodiscard]] std::string url() const { return server_.url(); }
     void put(const std::string& key, std::string contents);
-    // Puts chunks 1 to `chunks` of a volume. The first is an S; the last is an E if `has_end`. The
-    // contents of a chunk are its key.
+    // Puts chunks 1 to `chunks` of a volume. Chunk 1 is of kind S; the last chunk is of kind E if
+    // `has_end`. The contents of a chunk are its key.
     void put_volume(const std::string& station, int number, UtcTime time, int chunks,
                     bool has_end = true);
     void remove(const std::string& key);

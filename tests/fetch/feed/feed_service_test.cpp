@@ -185,7 +185,8 @@ TEST_F(FeedingFrom, ListingsThatAreNoneAreAskedForAgain) {
         ChunkBucket bucket;
         std::atomic<int> listings{0};
         bucket.change = [&](const std::string& asked, Reply reply) {
-            // The listing of endless pages answers four requests; every other fault answers one.
+            // The listing of endless pages answers four requests; every other fault answers one
+            // request.
             return asked.starts_with("LIST") &&
                            ++listings <=
                                1 + 3 * (fault.body.find("more") != std::string::npos ? 1 : 0)

@@ -83,7 +83,7 @@ TEST(PollPace, AfterFailuresThePauseDoublesUpToAMinute) {
     pace.note_failure(now, seconds{30});
     EXPECT_GE(pace.pause(now), seconds{30}) << "the pause that the server requests";
     pace.note_failure(now, std::chrono::hours{5});
-    EXPECT_EQ(pace.pause(now), seconds{60}) << "but no more than a minute";
+    EXPECT_EQ(pace.pause(now), seconds{60}) << "the pause is at most a minute";
     pace.note_news(now, {});
     EXPECT_LE(pace.pause(now), every);
 }

@@ -1,5 +1,5 @@
-// tests/fetch/feed/running_feed.h -- a FeedService that runs beside the test, on a drop directory
-// of its own, and asks 20 times a second.
+// tests/fetch/feed/running_feed.h -- a FeedService that runs beside the test, has its own drop
+// directory, and asks 20 times a second.
 #pragma once
 
 #include <atomic>

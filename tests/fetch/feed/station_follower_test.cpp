@@ -1,4 +1,4 @@
-// Follows a station in a bucket in memory, with a simulated clock, through everything that may
+// Follows a station with a simulated clock, in a bucket in memory, through everything that may
 // happen in a bucket.
 #include "fetch/feed/station_follower.h"
 
@@ -99,7 +99,7 @@ TEST_F(Following, AChunkThatComesAfterTheNextVolumeBeganIsTaken) {
     keys_.erase(key(494, start, 3));
     (void)turns(2);
     add_volume(keys_, 495, start + minutes{5}, 2, false);
-    EXPECT_EQ(all().size(), 2U) << "the next volume waits for no chunk";
+    EXPECT_EQ(all().size(), 2U) << "the next volume does not wait for the missing chunks";
     keys_.insert(key(494, start, 3));
     EXPECT_EQ(turns(4), std::vector{key(494, start, 3)});
     EXPECT_EQ(follower_->missing(), 0U);

@@ -111,7 +111,7 @@ class Pulling : public ::testing::Test {
         return std::make_unique<SourcePuller>(PullSource{"north", other_.url(), {"us"}}, config_,
                                               std::move(*grids), stop_);
     }
-    // Sets the limit to the present bytes of the directory, and offers two more grids.
+    // Sets the limit to the bytes that the directory now has, and offers two more grids.
     void reach_the_limit() {
         const auto north = puller();
         ASSERT_TRUE(north->turn());
@@ -148,8 +148,8 @@ TEST_F(Pulling, BringsWhatIsMissingAndAsksForNothingTwice) {
     EXPECT_EQ(north->pause(), config_.every);
     other_.server().forget_asked();
     ASSERT_TRUE(north->turn());
-    // The second request is for the short list, which has another URL; the third request sends the
-    // tag of the second list.
+    // The second turn requests the short list, which has another URL. The third turn sends the tag
+    // of the short list.
     ASSERT_TRUE(north->turn());
     const auto asked = other_.server().asked();
     ASSERT_EQ(asked.size(), 2U);
@@ -181,7 +181,7 @@ TEST_F(Pulling, GridsThatWereMadeLargerEndATurn) {
     ASSERT_TRUE(puller()->turn());
     const auto is_file = [](const Asked& asked) { return asked.path.ends_with("/file"); };
     EXPECT_EQ(std::ranges::count_if(other_.server().asked(), is_file), 1)
-        << "only one of two young grids";
+        << "only one of two young grids is fetched";
 }
 
 // 2026-11-28: at the limit of bytes, each turn fetched one new grid and replaced one grid, so the
@@ -215,7 +215,7 @@ TEST_F(Pulling, WhatComesCutOrChangedIsRefusedAndComesLater) {
         [](Reply reply) { return reply.headers.clear(), reply; },
         [](Reply reply) { return reply.body = "<html>", reply; },
         [](Reply reply) { return reply.body.clear(), reply; },
-        // A whole grid, but not the requested one.
+        // Returns a whole grid whose name is not the requested name.
         [&](Reply) {
             return Reply{200, other_.file(0), "ETag: \"x\"\r\n", Reply::Way::whole};
         },

@@ -109,7 +109,7 @@ TEST(ForeignDamage, HugeArraysTakeNoMemory) {
     NetcdfWriter file{NC_64BIT_DATA};
     testing::begin_cfradial(file);
     std::vector<std::byte> bytes = file.bytes();
-    // Makes the range as long as 2^40 gates: the dimension follows its name.
+    // Makes the range 2^40 gates long. The length of a dimension follows the name of the dimension.
     const std::string name = "range";
     const auto at = std::search(bytes.begin(), bytes.end(), name.begin(), name.end(),
                                 [](std::byte a, char b) { return a == std::byte(b); });

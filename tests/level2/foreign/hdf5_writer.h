@@ -90,7 +90,7 @@ class Hdf5Writer {
         H5Sclose(space);
         return *this;
     }
-    // Makes a group that is the root itself.
+    // Makes a link to the root, so that the root contains itself.
     void link_to_root(const char* name) {
         EXPECT_GE(H5Lcreate_hard(file_, "/", group_, name, H5P_DEFAULT, H5P_DEFAULT), 0);
     }

@@ -17,7 +17,7 @@ namespace stormcellar::testing {
 
 class NetcdfWriter {
   public:
-    // `mode` is that of nc_create(): NC_NETCDF4, NC_CLASSIC_MODEL, NC_64BIT_OFFSET, ....
+    // `mode` is the mode of nc_create(): NC_NETCDF4, NC_CLASSIC_MODEL, NC_64BIT_OFFSET, ....
     explicit NetcdfWriter(int mode) {
         EXPECT_EQ(nc_create(path_.c_str(), mode | NC_CLOBBER, &file_), NC_NOERR);
         group_ = file_;
@@ -30,7 +30,7 @@ class NetcdfWriter {
         int id = 0;
         EXPECT_EQ(nc_def_dim(group_, name, size, &id), NC_NOERR) << name;
     }
-    // Attributes of the group if `of` is empty.
+    // Writes an attribute of the array `of`, or of the group if `of` is empty.
     void text(const std::string& of, const char* name, const std::string& value) {
         define();
         EXPECT_EQ(nc_put_att_text(group_, id_of(of), name, value.size(), value.c_str()), NC_NOERR);

@@ -113,7 +113,7 @@ TEST(Odim, PutsRaysInOrderOfTime) {
     std::string dataset = begin_dataset(file);
     file.group(dataset + "/how").numbers("startazT", {1.7e9 + 2, 1.7e9 + 3, 1.7e9, 1.7e9 + 1.25});
     add_quantity(file, dataset, 1, "DBZH", 4, Bytes8{10, 11, 12, 13});
-    // This data set was measured before the first one.
+    // This data set was measured before the first data set.
     dataset = begin_dataset(file, {2, 3.0});
     file.group(dataset + "/how").numbers("startazT", {1.6e9, 1.6e9 + 1, 1.6e9 + 2, 1.6e9 + 3});
     add_quantity(file, dataset, 1, "DBZH", 4, Bytes8{20, 21, 22, 23});
