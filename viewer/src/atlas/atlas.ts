@@ -1,7 +1,7 @@
 // Copies the bricks of a grid into one texture, the atlas. A brick with values has a slot with a border of its
 // neighbors' cells, so that the hardware interpolates across bricks. A cell with a value has its code in R and 255 in
-// G; any other cell has 0 in both. After interpolation R / G is the mean of the values alone, so that no state becomes
-// a value.
+// G; any other cell has 0 in both. After interpolation R / G is the mean of the cells with values, so that no state
+// becomes a value.
 //
 // The atlas has codes of eight bits (shown codes). Codes of two bytes are scaled to them by codeScale and codeOffset;
 // readings use the exact codes of the packed grid.

@@ -1,5 +1,5 @@
-// Counts how often each value occurs in a grid. A whole grid is counted by its exact codes, a grid in parts by the
-// shown codes (eight bits) of its first halved grid.
+// Counts how often each value occurs in a grid. A whole grid is counted by its exact codes. A grid that comes in parts
+// is counted by the shown codes (eight bits) of its first halved grid.
 
 import { Atlas } from './atlas';
 import { PackedGrid, mayHoldValues, valueOf } from '../wire/packed_grid';

@@ -73,7 +73,7 @@ test('Top is a map: echo aloft is drawn over its place, with north up (2026-11-2
     assert(north![1] < south![1] && Math.abs(north![0] - south![0]) < 1e-6);
 });
 
-test('a drag moves a map and turns other views; with Shift it does the opposite (2026-11-28: a drag turned the map by 122°)', () => {
+test('a drag moves a map and turns other views; a drag with Shift does the opposite (2026-11-28: a drag turned the map by 122°)', () => {
     const map = namedView({ ...usualCamera, fieldOfViewDeg: 40 }, 'top');
     const moved = dragged(map, geometryOf(map), [60, -40], 2, false);
     assert.deepEqual([moved.azimuthDeg, moved.tiltDeg], [180, 0]);

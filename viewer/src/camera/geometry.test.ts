@@ -64,7 +64,7 @@ test('the box lies between the near and the far depth', () => {
     }
 });
 
-test('the ground under a pixel projects back to it, and the sky has none', () => {
+test('the ground under a pixel projects back to that pixel, and a pixel of the sky has no ground', () => {
     const low = { ...usualCamera, tiltDeg: 88, fieldOfViewDeg: 60 };
     for (const camera of [...cameras, low]) {
         const geometry = new ViewGeometry(box, camera, 3, 400, 300);

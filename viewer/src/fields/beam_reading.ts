@@ -1,5 +1,5 @@
-// Finds the beam that saw a point of a grid, and the time when it did. Finds the error that the grid's audit states for
-// values at the point.
+// Finds the beam that saw a point of a grid, and the time at which the beam saw the point. Finds the error that the
+// grid's audit states for values at the point.
 
 import { Place, geodesic } from '../earth/projection';
 import { GridFacts, SweepTime } from '../wire/api';

@@ -6,7 +6,7 @@ import { usualLayers, layersAddress, layersOf, toggledFolded, veilsFolded } from
 import { readPackedGrid } from '../wire/packed_grid';
 import { slantedGrid } from '../testing/written_grid';
 
-test('weak echo is clear air, storms are not (2026-11-28: clear air looked as if nothing had come)', () => {
+test('weak echo is clear air, but storms are not (2026-11-28: clear air looked as if nothing had come)', () => {
     const grid = readPackedGrid(slantedGrid(40, 36, 20));
     assert.equal(isClearAir(grid), true); // at most 16 dBZ
     assert.equal(isClearAir({ ...grid, firstValue: grid.firstValue + 30 }), false); // up to 46 dBZ
@@ -26,7 +26,7 @@ test('the area of echo in a halved grid is an estimate (2026-11-28: grids in par
     assert.equal(isClearAir({ ...many!, halvings: 1 }), false); // 200 to 800 km2
 });
 
-test('range folded air veils a volume of velocities unless the user turns it off (2026-11-28: it looked clear)', () => {
+test('range folded air veils a volume of velocities unless the user turns the veil off (2026-11-28: such air looked clear)', () => {
     for (const [moment, veils] of [
         ['VEL', true],
         ['SW', true],

@@ -26,8 +26,8 @@ export interface LevelPair {
     upperShare: number;
 }
 
-// Returns the levels below and above a height; null if the grid has no cells there. The cells of the outermost levels
-// reach half a level beyond them.
+// Returns the levels below and above a height; null if the grid has no cells there. The cells of the lowest and highest
+// levels reach half a step beyond these levels.
 export function levelsAbout(levelsM: ArrayLike<number>, heightM: number): LevelPair | null {
     const { bottomM, topM } = heightRange(levelsM);
     if (!(heightM >= bottomM && heightM <= topM)) return null;

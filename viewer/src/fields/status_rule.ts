@@ -6,8 +6,8 @@
 //   - else range folded or ambiguous, whichever weighs more, if both together weigh more than values, and more than no
 //     echo;
 //   - else no echo if this state weighs more than values;
-//   - else the mean of the values alone. Phases average on a circle. Velocities take the heaviest value, because a grid
-//     does not say at which velocity they alias.
+//   - else a value: the mean of the cells with values. Phases average on a circle. Velocities take the heaviest value,
+//     because a grid does not say at which velocity they alias.
 
 import { MomentFacts, momentFacts } from '../wire/moments';
 import { CellState } from '../wire/packed_grid';

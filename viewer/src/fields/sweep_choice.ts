@@ -28,7 +28,7 @@ export const isChosen = (row: SweepRow, moment: string): boolean =>
 // Number of a cut in its volume. 'first' is the first repeat of the cut that pictures take; null is the cut itself.
 export type CutNumber = number | 'first' | null;
 
-// Returns the cuts of the tilt of `row` that measure as it does, in order of time. SAILS and MRLE repeat low cuts.
+// Returns the cuts of the tilt of `row` that measure as `row` does, in order of time. SAILS and MRLE repeat low cuts.
 export function repeatsOf(rows: SweepRow[], moment: string, { sweep, moments }: SweepRow): SweepRow[] {
     const isDoppler = (of: SweepRow['moments']) => of.some((one) => one.moment === 'VEL');
     const tilt = tiltsOf(rows, moment).find((one) => one.some((row) => row.sweep === sweep)) ?? [];

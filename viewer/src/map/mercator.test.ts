@@ -53,7 +53,7 @@ test('the map cannot be dragged out of sight', () => {
     assert.ok(now.scale <= 256 * 2 ** 13);
 });
 
-test('a fit shows every point where the page covers nothing, across the antimeridian too', () => {
+test('a fit shows every point in the part of the map that no panel covers, across the antimeridian too', () => {
     for (const places of [
         [place(35, -97), place(47, -122), place(25, -80)],
         [place(13.5, 144.8), place(21.9, -159.6)],
@@ -70,7 +70,7 @@ test('a fit shows every point where the page covers nothing, across the antimeri
     assert.ok(pixelOf(across, guam!)[0] < pixelOf(across, kauai!)[0], 'Guam is west of Hawaii');
 });
 
-test('tiles cover the view, each once', () => {
+test('tiles cover the view, and no tile comes twice', () => {
     const tiles = tilesOf(view);
     assert.equal(tiles[0]!.zoom, 4);
     let area = 0;

@@ -79,7 +79,7 @@ export function isInside(polygon: Pixel[], x: number, y: number): boolean {
 
 export interface Found {
     station: StationPlace;
-    near: string | null; // name of the city that the search found; null: it found the station itself
+    near: string | null; // name of the city that the search found; null: the search found the station itself
     distanceM: number; // from that city; 0 without a city
 }
 

@@ -27,7 +27,7 @@ function textOf(properties: Values, names: readonly string[]): string {
 }
 
 // Returns the time of the first of these properties; `otherwise` if there is none. The last name is a common word, so
-// that its property may be something else than a time.
+// its property may not be a time.
 function timeOf(properties: Values, names: readonly string[], otherwise: number): number {
     const text = textOf(properties, names);
     if (text === '') return otherwise;
@@ -115,13 +115,13 @@ class GeoJsonReader {
         this.readPlaces(coordinates, depth, type.endsWith('Point'), style);
     }
 
-    // Reads a position, or lists in lists of positions. Each position is a shape if `arePoints`, or else each innermost
-    // list.
+    // Reads a position, or lists in lists of positions. If `arePoints`, each position is a shape; otherwise each
+    // innermost list is a shape.
     private readPlaces(value: unknown, depth: number, arePoints: boolean, style: Style): void {
         if (!Array.isArray(value)) fail('its coordinates are no list');
         const list = value as unknown[];
         if (arePoints && depth === 0) {
-            // An empty geometry is like none.
+            // An empty geometry counts as a missing geometry.
             if (list.length > 0) this.taken.shapes.push({ ...style, places: [this.placeOf(list)] });
         } else if (depth === 1 && !arePoints) {
             const places = list.map((one) => this.placeOf(one));

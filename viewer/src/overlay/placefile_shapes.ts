@@ -10,7 +10,7 @@ import { Shape, Shapes, mostShapePlaces } from './shapes';
 
 const longestLine = 10_000;
 
-// Splits at commas, but not inside quotes, which it removes.
+// Splits a line at commas that are not inside quotes, and removes the quotes.
 function fieldsOf(text: string): string[] {
     const fields = [''];
     let isQuoted = false;
@@ -36,7 +36,7 @@ class PlacefileReader {
     private statements = 0;
     private style = { ...usualStyle };
     private line: Shape | null = null; // of the current Line or Polygon
-    private isArea = false; // it is a Polygon
+    private isArea = false; // true for a Polygon
     private object: Place | null = null; // place of the current Object
     private isUnknown = false; // the current block cannot be drawn
 
@@ -140,7 +140,7 @@ class PlacefileReader {
         this.taken.shapes.push({ ...this.style, places: [place], label });
     }
 
-    // Adds a line, and begins another one like it.
+    // Adds a line, and begins another line like it.
     private endLine(line: Shape): void {
         const { places } = line;
         if (this.isArea && places.length > 1 && !isClosed(line)) places.push(places[0]!);

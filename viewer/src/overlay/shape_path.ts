@@ -20,7 +20,7 @@ const lengthDeg = (from: Place, to: Place): number =>
     Math.max(Math.abs(to.latitudeDeg - from.latitudeDeg), Math.abs(eastDeg(from, to)));
 
 // Returns x and y of the points of a line on the plane; NaN for a point that the projection cannot show. If the edges
-// had more than about `mostParts` parts, the parts are longer.
+// would have more than about `mostParts` parts, the parts are longer.
 export function pathOf(places: readonly Place[], plane: GridPlane, mostParts: number): Float64Array {
     const all = places.slice(1).reduce((sum, place, i) => sum + lengthDeg(places[i]!, place), 0);
     const partDeg = Math.max(longestPartDeg, all / mostParts);

@@ -5,7 +5,7 @@
 import { Place } from '../earth/projection';
 import { Rgb } from './shapes';
 
-// Returns the place. Longitudes up to 360 degrees are turned into those from -180 to 180.
+// Returns the place. Longitudes up to 360 degrees are turned into longitudes from -180 to 180.
 export function shapePlace(latitudeDeg: number, longitudeDeg: number): Place {
     const isOnEarth = Math.abs(latitudeDeg) <= 90 && Math.abs(longitudeDeg) <= 360;
     if (!isOnEarth) throw new Error(`${latitudeDeg}, ${longitudeDeg} is no place`);
@@ -14,10 +14,10 @@ export function shapePlace(latitudeDeg: number, longitudeDeg: number): Place {
 }
 
 const mostLabel = 80;
-// Control characters and invisible ones.
+// Control characters and invisible characters.
 const hidden = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}\p{Co}\p{Cn}\u034F\u115F\u1160\u3164\uFFA0\uFE00-\uFE0F]/gu;
 
-// Returns the first 80 characters of a text, with \xNN for each byte of those that would be invisible.
+// Returns the first 80 characters of a text, with \xNN for each byte of a character that would be invisible.
 export function shapeLabel(text: string): string {
     const bytesOf = (letter: string) => [...new TextEncoder().encode(letter)];
     const escaped = (letter: string) => bytesOf(letter).map((byte) => `\\x${byte.toString(16).padStart(2, '0')}`);
@@ -39,8 +39,8 @@ export function shapeColor(text: string): Rgb {
 const isoTime = /^(\d{4})-(\d\d)-(\d\d)(?:[T ](\d\d):(\d\d)(?::(\d\d)(?:\.(\d+))?)?)?Z?$/;
 const compactTime = /^(\d{4})(\d\d)(\d\d)_?(\d\d)(\d\d)(\d\d)?$/;
 
-// Reads a time in ms since 1970 from ISO 8601 with Z, with an offset such as -05:00, or without either (UTC), and from
-// the digits YYYYMMDDhhmm.
+// Reads a time, and returns ms since 1970. The text is ISO 8601 with Z, with an offset such as -05:00 or without a zone
+// (UTC), or has the digits YYYYMMDDhhmm.
 export function shapeTime(text: string): number {
     const [, plain = text, sign = '', hours = '0', minutes = '0'] =
         /^(.*:.*)([+-])(\d\d):?(\d\d)$/.exec(text) ?? ([] as string[]);

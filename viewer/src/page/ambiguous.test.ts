@@ -1,5 +1,5 @@
-// Tests that ambiguous cells and gates keep their state from the bytes of the server to each reading, and that none
-// becomes a value.
+// Tests that ambiguous cells and gates keep their state from the bytes of the server to each reading, and never become
+// values.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
@@ -164,7 +164,7 @@ test('a ray passes ambiguous cells, and a column tells them', () => {
     assert.ok(levels.some(({ state }) => state === CellState.ambiguous) && isPlausible(greatest!.value));
 });
 
-test('a gate has the state of its code: of VELD 1 is range folded and 2 ambiguous, of VEL 2 is a value', () => {
+test('a gate has the state of its code: in VELD, 1 is range folded and 2 is ambiguous; in VEL, 2 is a value', () => {
     const derived = { firstValueCode: 3, ambiguousCode: 2 };
     const [noEcho, rangeFolded] = [CellState.noEcho, CellState.rangeFolded];
     const [value, ambiguous] = [CellState.value, CellState.ambiguous];
@@ -174,7 +174,7 @@ test('a gate has the state of its code: of VELD 1 is range folded and 2 ambiguou
     assert.equal(stateOfGate({ firstValueCode: 8, ambiguousCode: -1 }, 7), noEcho, 'code 7 is a flag of CFP');
 });
 
-test('the dealiased velocity follows the measured velocity, also if the server has no grids of it', () => {
+test('the dealiased velocity follows the measured velocity, even if the server has no grids of VELD', () => {
     assert.deepEqual(
         [derivedOf('VEL'), derivedOf('REF'), measuredOf('VELD'), measuredOf('ABC')],
         ['VELD', null, 'VEL', 'ABC'],

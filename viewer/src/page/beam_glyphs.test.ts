@@ -55,7 +55,7 @@ test('a range is found from the arc of a beam', () => {
             assert.ok(Math.abs(rangeAt(site, elevationDeg, beamAt(site, elevationDeg, rangeM).arcM) - rangeM) < 0.01);
 });
 
-test('from above, each line points along the beam to where the air goes, as long as its speed', () => {
+test('from above, each line points along the beam to where the air goes, with a length in proportion to the speed', () => {
     const [east, west] = [-12.5, 30];
     const sweep = sweepOf((azimuthDeg) => 500 + 10 * (azimuthDeg < 180 ? east : west));
     const glyphs = glyphsOf(sweep, above);
@@ -128,7 +128,7 @@ test('only gates with a velocity have glyphs, and a calm has no head', () => {
     );
 });
 
-test('glyphs keep apart, and stay on their places of the ground', () => {
+test('glyphs keep apart, and stay at their places on the ground', () => {
     const sweep = sweepOf(() => 900);
     const apart = (glyphs: BeamGlyph[]) => {
         for (const [i, one] of glyphs.entries())

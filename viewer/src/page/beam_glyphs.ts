@@ -2,7 +2,7 @@
 // measures, and a disc across the beam for the part that no beam measured. So no glyph is an arrow of the wind.
 //
 // render/map/beam_glyphs.h has the rules. Here the glyphs are on a lattice of the ground, so that they turn with the
-// picture. A line is as long as its speed from wherever the camera looks.
+// picture. The length of a line shows its speed, from wherever the camera looks.
 
 import { Vec3, ViewGeometry } from '../camera/geometry';
 import { GridPlane, Plane, destination, geodesic } from '../earth/projection';
@@ -25,7 +25,7 @@ export const discRadius = 5.2;
 const calmMps = 1;
 const leastTilt = 0.36; // a disc that is seen from its edge is drawn a little tilted
 const latticePixels = 23; // lattices are one to two times as wide
-const leastAcross = 0.12; // of a beam that points at the camera, nothing can be seen
+const leastAcross = 0.12; // a beam that points at the camera cannot be seen
 const stepM = 500;
 const mostPoints = 20_000;
 const radians = Math.PI / 180;
@@ -84,7 +84,8 @@ class Taken {
 
 const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-// Returns the half axes of the disc across a beam in drawn space, whose direction in the picture is `along`.
+// Returns the half axes of the disc across a beam. `beam` is the direction of the beam in drawn space, and `along` its
+// direction in the picture.
 function discAcross({ right, up }: ViewGeometry, beam: Vec3, along: Pixel, radius: number): [Pixel, Pixel] {
     const flat = Math.hypot(beam[0], beam[1]);
     const across: Vec3 = [beam[1] / flat, -beam[0] / flat, 0];

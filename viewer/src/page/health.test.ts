@@ -21,6 +21,6 @@ test('a silent radar and a silent server are named, whatever the age (2026-11-28
 test('old data, data of the future and no data are not live', () => {
     for (const ageS of [48 * 3600, 1e9, -601, NaN])
         assert.deepEqual(healthOf(ageS, null, false), { level: 'archive', text: 'Newest' });
-    // A radar of an archive is silent since years, which is no news.
+    // A radar of an archive has been silent for years, which is not news.
     assert.equal(healthOf(1e9, 1e9, false).level, 'archive');
 });

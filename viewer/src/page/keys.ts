@@ -55,7 +55,7 @@ export class Keys {
         });
     }
 
-    // Call when all actions have been added. Carries out those of earlier keys.
+    // Call when all actions have been added. Carries out the actions of keys that came earlier.
     complete(): void {
         const early = this.early ?? [];
         this.early = null;

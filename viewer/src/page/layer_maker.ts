@@ -300,7 +300,7 @@ export class LayerMaker {
         const { shown } = this.pane;
         return shown && (this.sweepOf(shown)?.row ?? null);
     }
-    // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted one. In 2D, they
+    // Returns the sweeps of the shown tilt and volume in order of time, and the index of the wanted sweep. In 2D, they
     // are shown one after another. Returns null in 3D, or if the user has chosen another kind of cut.
     repeats(): { numbers: CutNumber[]; at: number } | null {
         const { shown, state } = this.pane;

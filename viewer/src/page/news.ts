@@ -51,7 +51,7 @@ export class News {
         );
     }
     // Handles a new volume of a site of the shown region. Instants near the time `volume` may have changed; if `volume`
-    // is undefined, any instant may have.
+    // is undefined, any instant may have changed.
     private async takeNewsOfSite(volume: string | undefined): Promise<void> {
         const { app } = this;
         const { domain, moment } = app.state;

@@ -52,8 +52,8 @@ export class Playback {
         this.showRepeat(number);
         return true;
     }
-    // Returns the number of the next sweep of the shown tilt in the shown volume; undefined if there is none. The next
-    // volume then begins with its first one, or with its last one (`by` is -1).
+    // Returns the number of the next sweep of the shown tilt in the shown volume; undefined if there is none. If it is
+    // undefined, the next volume begins with its first sweep of the tilt, or with the last sweep (`by` is -1).
     private nextRepeat(by: 1 | -1): CutNumber | undefined {
         const { app } = this;
         const repeats = app.repeats();

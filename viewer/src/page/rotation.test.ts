@@ -33,7 +33,7 @@ const share = (grid: PackedGrid, x: number, y: number, z: number) => {
 };
 const levelsOfDepth = Math.ceil(leastDepthM / (evenLevels(2)[1]! - evenLevels(2)[0]!));
 
-test('strong cells above each other make a column, in their sense', () => {
+test('strong cells above each other make a column, which has their sense of rotation', () => {
     const grid = gridOf((x, y) => (x === 10 && y === 12 ? leastRotation : x === 30 && y === 5 ? -20 : 1));
     const cells = [...columnCells(grid).values()];
     assert.equal(cells.length, 2 * nz);
@@ -47,7 +47,7 @@ test('strong cells above each other make a column, in their sense', () => {
     assert.equal(codeAt(made, 20, 20, 9), CellState.noEcho);
 });
 
-test('weak, single and shallow cells make no column, and neither do two senses together', () => {
+test('weak, single or shallow cells make no column, and cells of opposite senses make no common column', () => {
     assert.equal(columnCells(gridOf((x, y) => (x === 10 && y === 12 ? leastRotation - 0.1 : 0))).size, 0);
     assert.equal(columnCells(gridOf((x, y, z) => ((x + y + z) % 7 === 0 && z === 4 ? 50 : 0))).size, 0);
     const deep = (levels: number) =>

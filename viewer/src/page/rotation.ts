@@ -3,7 +3,7 @@
 // A column is a set of neighboring cells whose shear is at least `leastRotation` in one sense of rotation, and which is
 // at least `leastDepthM` deep. So single cells of noise make no column. The made grid holds, for each cell about a
 // column, the share of its neighborhood that belongs to a column (1-2-1 along each axis), negative if clockwise. The
-// surface at `columnShare` is the column, rounded for the eye alone.
+// surface at `columnShare` is the column, rounded only for the eye.
 //
 // render/products/rotation.h has the same rules.
 

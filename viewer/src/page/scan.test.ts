@@ -31,13 +31,13 @@ test('a row of the list has angle, kind, time, Nyquist velocity and measured mom
     assert.deepEqual(cutCells({ sweep: 3, elevation_deg: 4, moments: [] }, rows, speed), ['4.0°', '', '', '', '']);
 });
 
-test('a scan in progress is told by its cuts, and by those of the scan before', () => {
+test('the cuts of a scan and of the scan before tell how far the scan is', () => {
     const now = atMs('15:03:00');
     assert.deepEqual(progressOf(rows, [volume(true, 12), volume(false, 3)], now), {
         text: 'Pattern 212 · scan in progress: 3 of 12 cuts, up to 3.1°',
         share: 0.25,
     });
-    // A scan of another pattern, or a torn one, does not tell the number of cuts.
+    // A scan before that has another pattern, or is incomplete, does not tell the number of cuts.
     for (const before of [volume(true, 12, 35), volume(false, 12)])
         assert.deepEqual(progressOf(rows, [before, volume(false, 3)], now), {
             text: 'Pattern 212 · scan in progress: 3 cuts, up to 3.1°',

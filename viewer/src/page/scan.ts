@@ -49,7 +49,7 @@ export interface Progress {
     share: number | null; // part of the scan that is done; null if the number of its cuts is unknown
 }
 
-// Returns how far a scan is. `volumes` are the scan and the one before it, oldest first. A scan usually has as many
+// Returns how far a scan is. `volumes` are the scan and the scan before it, oldest first. A scan usually has as many
 // cuts as the last complete scan of the same pattern.
 export function progressOf(rows: SweepRow[], volumes: VolumeRow[], nowMs: number): Progress {
     const words = panelTexts.scan;

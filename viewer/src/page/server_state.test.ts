@@ -4,7 +4,7 @@ import test from 'node:test';
 
 import { ServerState } from './server_state';
 
-test('a station stays silent or not if the server does not know', () => {
+test('a station keeps its state if the server does not know whether the station is silent', () => {
     const server = new ServerState(() => undefined);
     server.takeSilences([
         ['KBGM', 900],

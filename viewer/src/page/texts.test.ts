@@ -35,7 +35,7 @@ test("the page gives the server's reason for each site that is left out (2026-11
     );
 });
 
-test('the page does not say that a grid is loading if the grid is gone (2026-11-28: it did)', () => {
+test('the page does not say that a grid is loading if the grid is gone (2026-11-28: the page said so)', () => {
     assert.equal(
         texts.detail({ coarsest: 2, missing: 3, isGone: true }),
         'coarse: greatest of 4 x 4 cells, finer ones are gone',

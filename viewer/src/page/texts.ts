@@ -21,7 +21,7 @@ export function localText(timeMs: number): string {
         timeZoneName: 'short',
     });
 }
-export const newsS = 48 * 3600; // a date tells older data better than an age
+export const newsS = 48 * 3600; // for older data, a date says more than an age
 // Tells the age of data, or the date of old data. `time` is in ISO form.
 export function age(seconds: number, time: string): string {
     if (isAhead(seconds)) return 'in the future';

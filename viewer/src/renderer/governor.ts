@@ -1,6 +1,6 @@
 // Chooses a rung (a way of drawing; ladder.ts) for each frame, so that frames come in time while the camera moves. It
-// chooses among the rungs whose error is allowed: the most exact one that should be drawn in time, or the fastest if
-// none should.
+// chooses among the rungs whose error is allowed: the most exact rung that should be drawn in time, or the fastest rung
+// if no rung should be.
 //
 // Divided by the cost of its rung, the time of a frame estimates how long the first rung would take. A moving mean of
 // these estimates, times the cost of a rung, predicts the time of a frame on that rung.

@@ -57,7 +57,7 @@ test('a ray passes cells that are not visible or outside of the box', () => {
     }
 });
 
-test('a reading of the volume takes the cell that contributes most (2026-11-28: it took the first, which nobody sees)', () => {
+test('a reading of the volume takes the cell that contributes most (2026-11-28: it took the first cell, which nobody sees)', () => {
     const geometry = new ViewGeometry(boxOf(grid), { ...usualCamera, tiltDeg: 0 }, 2, 400, 400);
     const [width, height] = cellSizeM(grid);
     const strong = valueOf(grid, 80);

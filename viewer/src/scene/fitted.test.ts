@@ -26,7 +26,7 @@ function seen([x, y, heightM]: Vec3, width: number, height: number): [number, nu
     return [0.5 * width + scale * along(axes.right), 0.5 * height - scale * along(axes.up)];
 }
 
-test('the focus and what is beside it are where the fitted camera sees them', () => {
+test('the page shows the focus and its surroundings where the fitted camera sees them', () => {
     for (const [width, height] of [
         [800, 600],
         [300, 700],

@@ -21,7 +21,7 @@ test('2D is a map of the lowest tilt at the same place, with north up', () => {
     );
 });
 
-test('a sweep that is shown in 3D is the first in 2D', () => {
+test('a sweep that is shown in 3D is also the first that 2D shows', () => {
     const layers = { ...solid.layers, sweepDeg: 2.4, sweepNumber: 7 };
     const flat = switched({ ...solid, layers }, true, null);
     assert.deepEqual([flat.layers.sweepDeg, flat.layers.sweepNumber], [2.4, 7]);

@@ -19,7 +19,7 @@ export interface Mark {
 
 // Lines farther than this many half widths of the grid are not drawn.
 const reach = 2.2;
-// Ranks of marks. Distances of rings rank above cities, and sites above all.
+// Ranks of marks. Distances of rings rank above cities, and sites rank above both.
 const ringRank = 1e8;
 const siteRank = 1e9;
 

@@ -64,7 +64,7 @@ test('the command draws the glyphs of a sweep of velocities', () => {
     assert.equal(beyondCommand({ ...usualLayers, hasVolume: false, hasRotation: true }, 1), 'surface');
 });
 
-test('the command leaves out the echo that the sweep lacks, and no other product does', () => {
+test('the command for a sweep leaves out the same echo as the shown sweep; other commands leave out no echo', () => {
     const command = (change: Partial<Layers>) =>
         productOf({ ...usualLayers, hasVolume: false, isSweepWeather: true, ...change })!.join(' ');
     assert.equal(command({ sweepDeg: 0.5 }), '--product ppi --elevation 0.5 --quality 0.5');

@@ -28,7 +28,7 @@ export interface Layers {
     sweepDeg: number | null; // elevation of the sweep that is shown
     sweepNumber: CutNumber; // number of the sweep in its volume (see cutOf())
     isSweepDealiased: boolean; // the sweep has dealiased velocities although the shown moment is the measured velocity
-    isSweepWeather: boolean; // the sweep lacks echo that is probably no weather
+    isSweepWeather: boolean; // the sweep lacks echo that is probably not weather
     hasGlyphs: boolean; // the sweep of a velocity has beam glyphs
     hasRotation: boolean; // columns of strong azimuthal shear are drawn
     hasCells: boolean; // storm cells are marked and listed

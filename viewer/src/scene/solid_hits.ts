@@ -87,7 +87,7 @@ export function sectionHit(ray: Ray, section: Section, mixes: boolean): SolidHit
     for (let column = 0; column < field.width; ++column) {
         const [a, b] = [ends[column]!, ends[column + 1]!];
         const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-        // start + depth way = a + share (b - a), seen from above
+        // Solve start + depth * way = a + share * (b - a) for depth and share, seen from above.
         const turn = way[0] * dy - way[1] * dx;
         const depth = ((a[0] - start[0]) * dy - (a[1] - start[1]) * dx) / turn;
         const share = ((a[0] - start[0]) * way[1] - (a[1] - start[1]) * way[0]) / turn;

@@ -122,7 +122,7 @@ test('the command names the moment that the picture shows', () => {
     assert.equal(momentIn('REF', { ...sweep, isSweepDealiased: true }), 'REF');
 });
 
-test('the command draws one layer, and is not offered for others', () => {
+test('the command draws one layer, and other choices of layers have no command', () => {
     const sweep = { ...usualLayers, hasVolume: false, sweepDeg: 0.5 };
     assert.equal(beyondCommand(usualLayers, 1), null);
     assert.equal(beyondCommand(sweep, 1), null);

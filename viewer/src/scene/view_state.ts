@@ -24,7 +24,7 @@ export interface ViewState extends Panes {
     exaggeration: number;
     opacity: number;
     quality: string; // name of a way of drawing (renderer/ladder.ts); empty: the page chooses one
-    memoryMib: number; // memory for grids; read when the page is opened
+    memoryMib: number; // memory for grids; a change takes effect when the page is opened again
     countsFetches: boolean; // the page counts the texels that a pixel asks for
     drafts: Draft[]; // tables that the user made, at most one for each moment; they override `colors`
     overlays: readonly string[]; // names of the server's overlays that are on

@@ -46,7 +46,7 @@ test('a draft has few points and looks like its table', () => {
         [5, 35, 65],
         'the point on the line is left out',
     );
-    assert.equal(draft.opacity, null, 'the opacity is the usual one');
+    assert.equal(draft.opacity, null, 'the opacity is the usual opacity');
     const table = tableOf(draft, usual);
     for (let value = 5; value < 80; ++value) {
         assert(colorOf(table, value)!.every((c, k) => Math.abs(c - colorOf(smooth, value)![k]!) < 4));
@@ -58,7 +58,7 @@ test('a draft has few points and looks like its table', () => {
     );
 });
 
-test('an opacity that is not the usual one becomes points within a few percent', () => {
+test('the points of an unusual opacity are right within a few percent', () => {
     const own = draftOf(
         { ...smooth, extinction: smooth.extinction.map((point) => ({ ...point, per_km: 2 * point.per_km })) },
         'REF',
@@ -92,7 +92,7 @@ test('values below the threshold are not in the file', () => {
     assert.equal(colorOf(cut, 19.9), null);
     assert.deepEqual(colorOf(cut, 20), colorOf(tableOf(draft, usual), 20)!.map(Math.round));
     assert.deepEqual(colorOf(cut, 50), colorOf(tableOf(draft, usual), 50));
-    assert.equal(fileOf(draft, 300).points.length, 2, 'a table of nothing is a table');
+    assert.equal(fileOf(draft, 300).points.length, 2, 'the file of a table without visible values is valid');
 });
 
 test('an address keeps the edges of a draft', () => {

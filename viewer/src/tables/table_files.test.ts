@@ -39,7 +39,7 @@ test('a .pal file blends as its format says', () => {
     assert.equal(table.moment, 'REF');
     assert.equal(table.unit, 'dBZ');
     assert.equal(colorOf(table, 4.9), null);
-    assert.deepEqual(colorOf(table, 10), [50, 100, 75, 255], 'half way to the second');
+    assert.deepEqual(colorOf(table, 10), [50, 100, 75, 255], 'half way to the second entry');
     assert.deepEqual(colorOf(table, 20), [105, 60, 15, 255], 'half way to the next entry');
     assert.deepEqual(colorOf(table, 44.9), [200, 100, 0, 255], 'solid');
     assert.deepEqual(colorOf(table, 90), [255, 255, 255, 255]);

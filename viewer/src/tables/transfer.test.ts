@@ -102,7 +102,7 @@ test('no value below the least visible code is visible', () => {
     assert(binOf(made.leastVisibleCode) >= 1);
 });
 
-test('values below the threshold are clear, and other values look as without it', () => {
+test('values below the threshold are clear, and other values look as without a threshold', () => {
     const above = makeTransfer(stepped, quantization, { opacity, least: 10 }, stepM);
     const bins = chooseBins(stepped, 10);
     assert.equal(bins.lowest, 10, 'the bins are those of a table that begins there');

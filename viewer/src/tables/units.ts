@@ -61,7 +61,7 @@ export interface ShownUnit {
 }
 
 // Returns the unit in which to write values that are stored in the unit `stored`. This is the chosen unit for speeds,
-// and the stored unit for all others.
+// and the stored unit for all other quantities.
 export function shownUnit(stored: string, units: Units): ShownUnit {
     if (stored === usualUnits.speed.symbol) return { symbol: units.speed.symbol, perStored: 1 / units.speed.si };
     return { symbol: stored === '1' ? '' : stored, perStored: 1 };

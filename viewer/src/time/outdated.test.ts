@@ -5,7 +5,7 @@ import { outdatedBy } from './outdated';
 
 const at = (minute: number) => `2026-11-28T10:${String(minute).padStart(2, '0')}:00Z`;
 
-test('a remade grid outdates the kept one even of a moment that is not shown (2026-11-28: the kept one was shown later)', () => {
+test('a remade grid outdates the kept grid, even of a moment that is not shown (2026-11-28: the kept grid was shown later)', () => {
     const isOld = outdatedBy('KTLX/VEL', at(10), [], 'KTLX/REF');
     assert.ok(isOld(`KTLX/VEL/${at(10)}`));
     for (const key of [`KTLX/REF/${at(10)}`, `KTL/VEL/${at(10)}`]) assert.ok(!isOld(key), key);
@@ -17,7 +17,7 @@ test('without a list of times, frames within the longest bridge are outdated', (
     assert.ok(!isOld(`KTLX/VEL/${at(0)}`));
 });
 
-test('frames between the remade grid and its neighbors are outdated, and so are regions that are not shown', () => {
+test('a remade grid outdates the frames beside it, and the regions that are not shown', () => {
     const isOld = outdatedBy('KTLX/REF', at(10), [at(0), at(5), at(10), at(15)], 'KTLX/REF');
     for (const minute of [6, 10, 14]) assert.ok(isOld(`KTLX/REF/${at(minute)}`), `${minute}`);
     for (const minute of [0, 4, 5, 15, 16]) assert.ok(!isOld(`KTLX/REF/${at(minute)}`), `${minute}`);

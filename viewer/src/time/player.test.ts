@@ -28,10 +28,10 @@ test('a player that does not follow keeps its time when newer times come and old
     assert.equal(player.follows, false);
     const later = withTimes(player, ['b', 'c', 'd', 'e']);
     assert.equal(later.times[later.at], 'b');
-    assert.equal(withTimes(later, ['c', 'd']).at, 0, 'b was evicted, so the next one is shown');
+    assert.equal(withTimes(later, ['c', 'd']).at, 0, 'b was evicted, so the next time is shown');
 });
 
-test('without times, none is shown', () => assert.equal(withTimes(at(withTimes(stopped, times), 1), []).at, -1));
+test('without times, no time is shown', () => assert.equal(withTimes(at(withTimes(stopped, times), 1), []).at, -1));
 
 test('playback waits for a time that is not loaded, and names it', () => {
     const player = { ...at(withTimes(stopped, times), 0), isPlaying: true };
@@ -65,7 +65,7 @@ test('the last time of a loop stays longer, and any end of a loop can be set', (
         [0, 0, 1500],
     );
     assert.equal(dwellMs({ ...player, at: 0, loop: { from: 'a', to: 'a' } }), 0, 'nothing is played');
-    assert.equal(looped(player, 'to', 3).loop, null, 'a loop of all times is none');
+    assert.equal(looped(player, 'to', 3).loop, null, 'a loop of all times counts as no loop');
 });
 
 test('a loop over older times is kept until they have come, and is dropped when they are evicted', () => {
@@ -83,7 +83,7 @@ test('an end of a loop pushes the other end along, and a loop of one time does n
     assert.equal(nextOf(later), null);
 });
 
-test('a link to a missing time shows the nearest (2026-11-28: it showed the next, and called it the nearest)', () => {
+test('a link to a missing time shows the nearest time (2026-11-28: it showed the next time as the nearest)', () => {
     const all = ['2010-09-11T01:10:00Z', '2010-09-11T01:20:00Z', '2010-09-11T01:35:00Z'];
     for (const [wanted, index] of [
         ['01:25', 1],

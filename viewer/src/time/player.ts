@@ -87,8 +87,8 @@ const lastMs = 1500;
 // again, so that the eye takes in how far the storms have come.
 export const dwellMs = (player: PlayerState): number => ((nextOf(player) ?? Infinity) < player.at ? lastMs : 0);
 
-// Moves one end of the loop to a time. If the ends would cross, moves both ends to this time. A loop of all times is
-// none, so that later times are played, too.
+// Moves one end of the loop to a time. If the ends would cross, moves both ends to this time. A loop over all times
+// becomes null, so that later times are played, too.
 export function looped(player: PlayerState, end: 'from' | 'to', index = player.at): PlayerState {
     const now = player.times[index];
     if (now === undefined) return player;

@@ -45,7 +45,7 @@ test('a link finds a volume by the second that the page tells (2026-11-28: the p
     assert.equal(timeline.now, at('10:05:06.742'));
 });
 
-test('the nearest time replaces an evicted time (2026-11-28: the next one did, and was called the nearest)', () => {
+test('the nearest time replaces an evicted time (2026-11-28: the next time did, and was called the nearest)', () => {
     const timeline = made(['10:00:00', '10:00:50', '10:05:00']);
     timeline.find(at('10:00:50'));
     timeline.take(['10:00:00', '10:05:00'].map(at));

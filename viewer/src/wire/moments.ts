@@ -12,7 +12,7 @@ export interface MomentFacts {
     tables: string; // the moment whose tables of colors the moment has
 }
 
-// Facts of most moments. Table `moments` has those of a moment that differ.
+// Facts that most moments share. The table `moments` has the facts in which a moment differs.
 const usual = { mixing: 'mean', isSigned: false, isDoppler: false, isDerived: false };
 const facts = Object.fromEntries(
     Object.entries(moments).map(([name, own]) => [name, { ...usual, measured: name, tables: name, ...own }]),
@@ -33,8 +33,8 @@ export function isVelocity(name: string): boolean {
     return facts !== null && facts.isSigned && facts.unit === 'm/s';
 }
 
-// Returns true if the moment with a number in packed grids and sweeps is derived. Moments that the page does not know
-// are not.
+// Returns true if the moment with this number (in packed grids and sweeps) is derived; false for a moment that the page
+// does not know.
 export const isDerivedNumber = (number: number): boolean => Object.values(facts)[number]?.isDerived ?? false;
 
 // Returns the measured moment from which a moment comes.

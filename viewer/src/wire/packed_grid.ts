@@ -25,11 +25,11 @@ export const enum BrickKind {
     codes = 2,
 }
 
-// Echo that is left out because it is probably no weather.
+// Echo that is left out because it is probably not weather.
 export interface LeftOutEcho {
     share: number; // of the echo; negative: unknown
 }
-// Reads it where a packed form has the least probability and the share; null if all echo is there.
+// Reads the two numbers of LeftOutEcho at an offset; null if no echo is left out.
 export const leftOutAt = (view: DataView, at: number): LeftOutEcho | null =>
     view.getFloat32(at, true) > 0 ? { share: view.getFloat32(at + 4, true) } : null;
 

@@ -95,7 +95,7 @@ export class CellMarks {
                 if (at && ringMinutes.includes(minutes)) line(pen, ringOf(geometry, at, errorM), aheadColor);
             }
         }
-        // The strongest cells come last, over the others.
+        // The strongest cells come last, over the other cells.
         for (const cell of [...found].reverse()) mark(pen, pixelOf(cell.place), cell.maxDbz.toFixed(0));
     }
 }

@@ -1,10 +1,10 @@
-// Lists storm cells in a table. A click on a column's name sorts by it, and again the other way round.
+// Lists storm cells in a table. A click on the name of a column sorts by this column; another click reverses the order.
 
 import { Units, heightText, shownUnit } from '../../tables/units';
 import { StormCell } from '../storm_cells';
 import { make } from '../dom';
 
-// Texts of the table. They are here because texts.ts is part of the first program of the page.
+// Texts of the table, which are not in texts.ts, because texts.ts is part of the first program of the page.
 const words = {
     title: 'Storm cells',
     none: 'No storm cell at this time',

@@ -38,7 +38,7 @@ function putTitle(app: App, facts: FactsOfShown): void {
     if (!shown || app.isOnMap) return;
     const { domain } = shown;
     const { layers } = app.state;
-    // A sweep alone may be of another moment than the grid.
+    // If only a sweep is shown, its moment may differ from the moment of the grid.
     const isSweepAlone = layers.sweepDeg !== null && echoLayers(layers) === 1;
     const moment = isSweepAlone ? sweepMoment(layers, shown.moment) : shown.moment;
     const { grid } = shown.loaded;

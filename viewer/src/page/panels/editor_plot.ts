@@ -193,7 +193,7 @@ export class EditorPlot {
 
     // -- handles
 
-    // Makes the handles of a group. Tab reaches one handle of each group, and Page keys go to the others.
+    // Makes the handles of a group. Tab reaches one handle of each group, and Page keys go to the other handles.
     private putHandles(kind: Kind, count: number): void {
         const handles = this.handles[kind];
         while (handles.length > count) handles.pop()!.remove();

@@ -15,7 +15,7 @@ import { plotTexts } from '../later_texts';
 const headLength = 4.8;
 const headHalfWidth = 2.6;
 const lineWidth = 1.4;
-const nearMps = 20; // the key shows a round speed near this one
+const nearMps = 20; // the key shows a round speed near this speed
 
 function putDiscs(pen: CanvasRenderingContext2D, glyphs: Pick<BeamGlyph, 'gate' | 'axes'>[], scale: number): void {
     for (const { gate, axes } of glyphs) {

@@ -327,7 +327,7 @@ export class LayersPanel {
     private toggleSweep(): void {
         this.set({ sweepDeg: this.layers.sweepDeg === null ? lowestTiltDeg : null, sweepNumber: null });
     }
-    // Shows glyphs together with the sweep that they stand on.
+    // Turns glyphs on or off. Glyphs need a sweep, so turning them on also shows a sweep.
     private toggleGlyphs(): void {
         const { hasGlyphs, sweepDeg } = this.layers;
         this.set({ hasGlyphs: !hasGlyphs, sweepDeg: hasGlyphs ? sweepDeg : (sweepDeg ?? lowestTiltDeg) });

@@ -1,5 +1,5 @@
 // Adds a button for each moment of the domain. Moments that the server computes from several moments or sweeps are in a
-// list of their own, because the head of the page has no room for all.
+// list of their own, because the head of the page has no room for all moments.
 
 import { derivedOf, isMoment, isVelocity, measuredOf, momentFacts, momentsInOrder, titleOf } from '../../wire/moments';
 import { App } from '../app';

@@ -71,7 +71,7 @@ export class OverlayRows {
         });
     }
 
-    // Adds files. Opens the panel if it tells more than the picture.
+    // Adds files. Opens the panel if the picture shows nothing of them.
     private async add(files: readonly File[]): Promise<void> {
         const areShown = await this.layers.add(files);
         if (this.app.isOnMap) this.app.miss(this.layers.problem);

@@ -1,5 +1,5 @@
-// Draws shapes of others, such as warnings, on the ground of the picture: lines with a halo, and points with labels
-// (render/map/shape_marks.h).
+// Draws shapes of other programs, such as warnings, on the ground of the picture: lines with a halo, and points with
+// labels (render/map/shape_marks.h).
 
 import { ViewGeometry } from '../../camera/geometry';
 import { planeOf } from '../../earth/projection';
@@ -49,7 +49,7 @@ function drawLines(pen: CanvasRenderingContext2D, lines: Pixel[][], shape: Shape
     }
 }
 
-// Returns the place of a label beside its dot that is free; null if there is none.
+// Returns a free place for a label beside its dot; null if every such place is taken.
 function placeOfLabel([x, y]: Pixel, width: number, taken: readonly Rect[], room: Rect): Rect | null {
     const apart = dotRadius + 4;
     const half = labelHeight / 2;

@@ -42,7 +42,7 @@ export class StationLine {
         this.of = shown;
         const isOurs = () => this.of === shown;
         const { sites } = shown.loaded.grid;
-        // If one of the two answers fails, the line shows the other alone.
+        // If one of the two answers fails, the line shows only the other.
         const rows =
             isDoppler(shown.moment) && sites.length === 1
                 ? this.drawing.share.store.rowsOf(shown, sites[0]!.icao)

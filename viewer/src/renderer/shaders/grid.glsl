@@ -103,7 +103,7 @@ bool isEmpty(uint entry) {
     return (entry & 0x1FFFFFu) == 0u;
 }
 
-// Returns the way from cells to texels in a brick: an offset, and the factor of columns and rows.
+// Returns how to convert cells of a brick to texels: an offset, and the factor for columns and rows.
 vec4 placeOf(ivec3 brick, uint entry, vec3 slots) {
     // Find the slot in the atlas. Half a slot is added, so that rounding cannot change the whole part of a quotient.
     float slot = float(int(entry & 0x1FFFFFu)) - 1.0;
