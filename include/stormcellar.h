@@ -1,14 +1,14 @@
 // stormcellar.h -- the C interface of stormcellar: reads, grids and draws weather radar data.
 //
-// Every function that can fail returns a stormcellar_code, STORMCELLAR_OK or the kind of the
-// failure. If `error` is not null, it then has the code and one line for people. A null pointer
-// where an object is needed is STORMCELLAR_BAD_ARGUMENT.
+// Every function that can fail returns a stormcellar_code: STORMCELLAR_OK, or the kind of the
+// failure. A failed call also writes the code and one line for people into `error`, unless `error`
+// is null. A null pointer in place of an object gives STORMCELLAR_BAD_ARGUMENT.
 //
 // Objects are constant after they are made, so many threads may use one object. An object is freed
 // once, when no thread uses it. Nothing else is shared: the library has no global state.
 //
 // Structs whose first member is `size` may grow at their end in later versions. Set `size` to
-// sizeof the struct before a call; the library reads and writes only as many bytes.
+// sizeof the struct before a call; the library reads and writes only `size` bytes.
 //
 // Units     Degrees, meters, milliseconds since 1970-01-01 00:00 UTC, and the unit of each moment.
 //           Heights are above mean sea level. Unknown numbers are NaN, unknown times INT64_MIN.
@@ -65,12 +65,12 @@ typedef struct stormcellar_read_options {
     int32_t threads;      // 0: one
     int32_t volume;       // number in a file of several volumes, from 1; 0: the first
     const char* moments;  // names between blanks, "REF VEL", to decode only these; null: all
-    const char* station;  // if the file does not name it, "KTLX"; null: from the name of the file
+    const char* station;  // if the file has no station: "KTLX"; null: from the file's name
 } stormcellar_read_options;
 
-// Reads a volume from a file, from bytes, or from the descriptor of a regular file, from its
-// position to its end. The file may be compressed. Null options are all zero. Bytes are not needed
-// after the call.
+// Reads a volume from a file, from bytes, or from the descriptor of a regular file. A descriptor is
+// read from its position to the end of the file. The file may be compressed. Null options mean that
+// all options are zero. The bytes may be freed after the call.
 STORMCELLAR_API stormcellar_code stormcellar_volume_open(const char* path,
                                                          const stormcellar_read_options* options,
                                                          stormcellar_volume** volume,
@@ -100,7 +100,8 @@ typedef struct stormcellar_volume_facts {
 STORMCELLAR_API stormcellar_code stormcellar_volume_describe(const stormcellar_volume* volume,
                                                              stormcellar_volume_facts* facts,
                                                              stormcellar_error* error);
-// Copies a problem, from 0, as one line. A longer line is cut to `size` with the closing 0.
+// Copies one problem as one line; problems are numbered from 0. The line is cut to at most `size`
+// bytes, of which the last is 0.
 STORMCELLAR_API stormcellar_code stormcellar_volume_problem(const stormcellar_volume* volume,
                                                             int32_t problem, char* text,
                                                             size_t size, stormcellar_error* error);
@@ -143,12 +144,12 @@ typedef enum stormcellar_gate_state {
     STORMCELLAR_GATE_BELOW_THRESHOLD = 1,
     STORMCELLAR_GATE_RANGE_FOLDED = 2,
     STORMCELLAR_GATE_NO_DATA = 3,   // not measured, or beyond the gates of the radial
-    STORMCELLAR_GATE_AMBIGUOUS = 4  // there is echo, but a derived value cannot be told
+    STORMCELLAR_GATE_AMBIGUOUS = 4  // echo whose derived value is uncertain
 } stormcellar_gate_state;
 
 // Gates are in rows, one for each radial of the sweep. A value is (code - offset) / scale, or the
-// code if the scale is 0. If the radials of a sweep differ in their gates, the moment stands there
-// once for each kind of radial, and the other radials have no gates in it.
+// code if the scale is 0. If the radials of a sweep differ in their gates, the sweep has the moment
+// once for each kind of radial, with no gates in the rows of other radials.
 typedef struct stormcellar_moment_facts {
     size_t size;
     char name[8];            // "REF"
@@ -166,16 +167,18 @@ STORMCELLAR_API stormcellar_code stormcellar_moment_describe(const stormcellar_v
                                                              int32_t sweep, int32_t moment,
                                                              stormcellar_moment_facts* facts,
                                                              stormcellar_error* error);
-// Finds the number of the first moment of this name. STORMCELLAR_NOT_FOUND if there is none.
+// Finds the number of the first moment of this name. STORMCELLAR_NOT_FOUND if there is no such
+// moment.
 STORMCELLAR_API stormcellar_code stormcellar_moment_find(const stormcellar_volume* volume,
                                                          int32_t sweep, const char* name,
                                                          int32_t* moment, stormcellar_error* error);
-// Points to the codes, radials times gates of 1 or 2 bytes. They live as long as the volume.
+// Points to the codes, radials times gates of 1 or 2 bytes. The codes live as long as the volume.
 STORMCELLAR_API stormcellar_code stormcellar_moment_codes(const stormcellar_volume* volume,
                                                           int32_t sweep, int32_t moment,
                                                           const void** codes,
                                                           stormcellar_error* error);
-// Writes the values, NaN where a gate has none. `count` must be radials times gates.
+// Writes the values of the gates; NaN for a gate without a value. `count` must be radials times
+// gates.
 STORMCELLAR_API stormcellar_code stormcellar_moment_values(const stormcellar_volume* volume,
                                                            int32_t sweep, int32_t moment,
                                                            float* values, size_t count,
@@ -190,7 +193,7 @@ typedef struct stormcellar_derive_options {
     size_t size;
     const char* dealias;       // auto, off, profile, region or anchored; null: auto
     const char* storm_motion;  // of SRV: auto, right, left, mean, or "240/15"; null: auto
-    double quality;            // leave out gates with a lesser probability of weather; 0: none
+    double quality;            // leave out gates with a lesser probability of weather; 0: keep all
 } stormcellar_derive_options;
 
 // Returns a copy of the volume with derived moments, named between blanks: VELD (dealiased
@@ -236,15 +239,15 @@ typedef struct stormcellar_mosaic_options {
     double length_m;      // a site at distance r has the weight exp(-r^2 / length^2); 0: 250 km
 } stormcellar_mosaic_options;
 
-// Grids volumes of several radars, or of several times, and merges them for one instant, the middle
-// of the newest volumes, as `stormcellar grid FILE FILE` does. Without a center, the grid reaches
-// 230 km beyond the radars. Rules and accuracy: docs/geometry.md.
+// Grids volumes of several radars, or of several times, and merges the grids for one instant, as
+// `stormcellar grid FILE FILE` does. The instant is the middle of the newest volumes. Without a
+// center, the grid reaches 230 km beyond the radars. Rules and accuracy: docs/geometry.md.
 STORMCELLAR_API stormcellar_code stormcellar_mosaic_make(
     const stormcellar_volume* const* volumes, size_t count, const stormcellar_grid_options* options,
     const stormcellar_mosaic_options* mosaic_options, stormcellar_grid** mosaic,
     stormcellar_error* error);
-// Merges grids of different radars, which must have the same moment and the same cells, as they
-// are: echo does not move to a common time. Values are rounded to the steps of the cache (0.5 dBZ).
+// Merges grids of different radars. The grids must have the same moment and the same cells. Echo is
+// not moved to a common time. Values are rounded to the steps of the cache (0.5 dBZ).
 STORMCELLAR_API stormcellar_code stormcellar_grid_merge(const stormcellar_grid* const* grids,
                                                         size_t count,
                                                         const stormcellar_mosaic_options* options,
@@ -285,8 +288,8 @@ typedef enum stormcellar_cell_state {
 
 // Point to the heights of the levels, the values, and the states of the cells (one byte each).
 // Cells are in rows of columns of levels: cell (row, column, level) is at
-// (row * columns + column) * levels + level. A value counts only if the state is value. The arrays
-// live as long as the grid.
+// (row * columns + column) * levels + level. A value counts only if the state is
+// STORMCELLAR_CELL_VALUE. The arrays live as long as the grid.
 STORMCELLAR_API stormcellar_code stormcellar_grid_levels(const stormcellar_grid* grid,
                                                          const double** levels_m,
                                                          stormcellar_error* error);
@@ -303,12 +306,12 @@ typedef struct stormcellar_ladder stormcellar_ladder;
 
 typedef struct stormcellar_ladder_options {
     size_t size;
-    int32_t columns;  // that are compared; 0: 2,000
-    int32_t rounds;   // of timing, of which the fastest counts; 0: 3
+    int32_t columns;  // number of columns that are compared; 0: 2,000
+    int32_t rounds;   // number of timings, of which the fastest counts; 0: 3
 } stormcellar_ladder_options;
 
-// Measures on the grid of the options; their interpolation and mean_of_cell do not count. Takes 20
-// s for the usual grid.
+// Measures on the grid that the options describe, without their interpolation and mean_of_cell.
+// Takes 20 s for the usual grid.
 STORMCELLAR_API stormcellar_code stormcellar_ladder_measure(
     const stormcellar_volume* volume, const stormcellar_grid_options* options,
     const stormcellar_ladder_options* ladder_options, stormcellar_ladder** ladder, size_t* count,
@@ -328,16 +331,16 @@ typedef struct stormcellar_rung {
     double time_s;        // of the first grid
     double kept_time_s;   // of further grids with the same geometry
     double position_max_m, position_rms_m;
-    double value_rms, value_p95, value_p99, value_max;  // errors of cells with a value in both
-    double status_disagreement;                         // share of cells with another state
+    double value_rms, value_p95, value_p99, value_max;  // of cells with a value in both chains
+    double status_disagreement;                         // share of cells whose states differ
 } stormcellar_rung;
 
 STORMCELLAR_API stormcellar_code stormcellar_ladder_describe(const stormcellar_ladder* ladder,
                                                              size_t index, stormcellar_rung* rung,
                                                              stormcellar_error* error);
 
-// A picture as pixels, rows of red, green, blue and alpha (sRGB, alpha not premultiplied) from the
-// top, or as the bytes of a PNG file.
+// A picture: the bytes of a PNG file, or pixels in rows from the top. A pixel is red, green, blue
+// and alpha (sRGB, alpha not premultiplied).
 typedef struct stormcellar_picture stormcellar_picture;
 
 typedef enum stormcellar_picture_format {
@@ -358,8 +361,8 @@ typedef struct stormcellar_draw_options {
 } stormcellar_draw_options;
 
 // Draw a volume, or a grid, as `stormcellar frame` does with the same options: a PNG has the same
-// bytes. Products over several volumes and marks of storm cells are not drawn. Null options draw
-// reflectivity in three dimensions.
+// bytes. Neither products over several volumes nor marks of storm cells are drawn. Null options
+// draw reflectivity in three dimensions.
 STORMCELLAR_API stormcellar_code stormcellar_volume_draw(const stormcellar_volume* volume,
                                                          const stormcellar_draw_options* options,
                                                          stormcellar_picture** picture,

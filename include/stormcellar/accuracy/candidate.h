@@ -29,9 +29,9 @@ inline constexpr std::size_t most_candidates = 65536;
 // busy the machine was.
 //
 // A choice is not listed if it leaves off an effect of unbounded size that the settings allow to be
-// on. No budget allows such a choice, not even a budget that does not bound the quantity. Among
-// choices of equal effort, the choice with fewer effects off comes first, because its accuracy
-// costs nothing; then the choice with the higher rung at the first step where two choices differ.
+// on. No budget allows such a choice, not even a budget that does not bound the quantity. Choices
+// of equal effort are ordered by the number of effects that are off, the fewest first, then by the
+// rung at the first step where they differ, the higher rung first.
 //
 // Errors: the errors of validate(); unsupported for more than most_candidates choices.
 [[nodiscard]] Result<std::vector<Candidate>> list_candidates(const Chain& chain);

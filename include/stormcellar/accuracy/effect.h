@@ -1,9 +1,9 @@
 // stormcellar/accuracy/effect.h -- one physical or optical effect: its meaning, its size in a
 // scene, and its cost.
 //
-// An effect is one step up a ladder: if it is on, a step of the chain uses the next rung. The
-// module that does the step predicts the effect's size and cost for each scene. This module knows
-// no physics.
+// An effect is the difference between two neighboring rungs of a step: if the effect is on, the
+// step uses the upper rung. The module that does the step predicts the effect's size and cost for
+// each scene. This module knows no physics.
 //
 // Units     Costs are in seconds; the units of sizes are in stormcellar/accuracy/quantity.h.
 // Threads   Effects are plain values and all functions are pure.

@@ -34,8 +34,8 @@ struct ErrorSummary {
 [[nodiscard]] std::optional<ErrorSummary> summarize(std::span<const ErrorCluster> clusters);
 
 // The number of cells whose status (value, no echo, not seen, range folded) was compared, and the
-// number of cells where it differed. Status is counted separately, because only a cell with a value
-// on both sides has an error.
+// number of cells where it differed. Status is counted separately, because a cell has an error only
+// if both of the compared results have a value there.
 struct StatusCounts {
     std::uint64_t compared = 0;
     std::uint64_t disagreeing = 0;

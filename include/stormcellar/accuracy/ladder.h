@@ -55,10 +55,10 @@ struct LadderField {
 
 // Returns the table as text of at most 100 columns, or more if the figures need it; each line ends
 // with "\n". The rungs of a step are below the step's name. A column without any value is omitted,
-// and "-" marks a missing value. The headings are "first" for time_s, "further" for kept_time_s,
-// "position" for the largest position error, "usual", "99 in 100" and "largest" for the root mean
-// square, the 99th percentile and the largest of the value errors, "color" for image_p99_de,
-// "state" for the share of cells with another status, and "worth it" for `pareto`.
+// and "-" marks a missing value. The headings are "first" (time_s), "further" (kept_time_s),
+// "position" (the largest position error), "usual" (root mean square of the value errors), "99 in
+// 100" (99th percentile of the value errors), "largest" (the largest value error), "color"
+// (image_p99_de), "state" (the share of cells with another status) and "worth it" (`pareto`).
 [[nodiscard]] std::string format_table(std::span<const LadderRow> rows, ValueUnit unit);
 
 }  // namespace stormcellar::accuracy

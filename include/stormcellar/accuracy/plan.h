@@ -63,8 +63,8 @@ struct Plan {
 enum class Outcome { met, unmet };
 
 // Makes the plan for a candidate. `outcome` says whether the candidate meets the budget; the
-// reasons depend on it. If the budget is empty, the candidate is the default. The caller adds the
-// shortfall and the measurements.
+// reasons depend on `outcome`. If the budget is empty, the candidate is the default. The caller
+// adds the shortfall and the measurements.
 [[nodiscard]] Plan make_plan(const Chain& chain, const Budget& budget, const Candidate& candidate,
                              Outcome outcome);
 

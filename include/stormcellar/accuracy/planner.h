@@ -2,8 +2,8 @@
 // budget.
 //
 // For every quantity that the budget bounds, the predicted sizes of all effects that are off must
-// add up to at most the limit. An effect that the user set off counts in the sum. Depending on what
-// the budget bounds, the plan holds
+// add up to at most the limit. An effect that the user set to off counts in the sum. Depending on
+// what the budget bounds, the plan holds
 //   for errors             the first of list_candidates() whose sums are within the budget
 //   for errors and a time  the first of list_candidates() whose sums are within the budget and
 //                          whose predicted cost is within the time
@@ -11,7 +11,7 @@
 //                          first of list_candidates() if several are equally accurate
 // If no candidate fits, the plan holds the most accurate candidate within the time, or the first of
 // list_candidates() if none is within the time. The search is exhaustive, for at most
-// most_candidates choices, so it cannot miss the best.
+// most_candidates choices, so it cannot miss the best choice.
 //
 // Units     As in stormcellar/accuracy/budget.h and chain.h.
 // Threads   Pure functions.
@@ -30,8 +30,8 @@ namespace stormcellar::accuracy {
 // plan() refuses a chain with too many choices.
 [[nodiscard]] Status validate(const Chain& chain, const Budget& budget);
 
-// Returns the settings without which the candidate would leave less off or cost less, as text such
-// as "; set off: refraction". Returns an empty text if there are none.
+// Returns the user's settings that keep the candidate from meeting the budget, or an empty text.
+// The text is, for example, "; set off: refraction".
 [[nodiscard]] std::string settings_in_the_way(const Chain& chain, const Budget& budget,
                                               const Candidate& candidate);
 

@@ -6,13 +6,13 @@
 // or contains `..`. It also reads the members of archives inside the archive, by default one level
 // deep.
 //
-// The input is hostile, so `Limits` bounds everything that it can claim. At a bound the reader
-// stops and reports it. Bytes that are unpacked only to skip a member count too. Fixed bounds limit
-// headers: 128 KiB for one header, 16 MiB for the directory of a zip, and 4 MiB for the sum, over
-// all headers, of the bytes beyond 8 KiB of each. From a damaged archive the reader returns the
-// whole members that libarchive finds, also after blocks of zeros, where tars may have been joined.
-// libarchive recognizes the formats by content: tar (also compressed by gzip, bzip2, xz, zstd or
-// compress) and zip.
+// The input is hostile, so `Limits` bounds all counts and sizes. When the input exceeds a bound,
+// the reader stops and reports the bound. Bytes that are unpacked only to skip a member count too.
+// Fixed bounds limit headers: a header has at most 128 KiB, and the directory of a zip 16 MiB. The
+// bytes by which headers exceed 8 KiB may add up to 4 MiB. From a damaged archive the reader
+// returns the whole members that libarchive finds. Joined tars are read to the end, although blocks
+// of zeros divide them. libarchive recognizes the formats by content: tar (also compressed by gzip,
+// bzip2, xz, zstd or compress) and zip.
 //
 // Units     All sizes are in bytes.
 // Threads   Each reader may be used by one thread at a time.

@@ -44,7 +44,7 @@ struct Station {
 [[nodiscard]] std::string station_in_name(std::string_view file_name);
 
 // A station that a configuration or a command line adds to the table. If the table already has the
-// station, find_station() returns the added one only if `instead_of_table` is set.
+// station, find_station() returns the added station only if `instead_of_table` is set.
 struct AddedStation {
     std::string icao;
     std::string name;

@@ -24,12 +24,12 @@
 //              until protected_for after it was written. Because the time of writing counts,
 //              replayed old data are protected too. A part is not protected from the limit of age.
 //              All grids that are protected from one limit may hold at most half of its space. If
-//              they would hold more, the largest of them lose this protection first and, among
-//              equally large ones, the oldest. Protected grids are also evicted if the newest grid
-//              of a known group would otherwise find no room.
+//              they would hold more, the largest of them lose this protection first; among equally
+//              large grids, the oldest. Protected grids are also evicted if the newest grid of a
+//              known group would otherwise find no room.
 //   pinned     Pinned grids are never evicted.
 // The space of a budget is its bytes, or its percent of the file system, or the smaller of the two.
-// Without either, protected grids and grids of others may hold any space.
+// If neither bytes nor percent is set, protected grids and grids of others may hold any space.
 //
 // Units     Bytes, percent, milliseconds.
 // Threads   Plain data and pure functions.
@@ -69,7 +69,7 @@ struct Budgets {
     // total budget limits bytes or percent. A budget of age alone does not allow evicting grids
     // sooner.
     [[nodiscard]] bool makes_room(std::string_view group) const;
-    // Returns the bytes that remain when a cache has exceeded `limit` and grids were evicted.
+    // Returns the size in bytes to which evicting brings a cache that has exceeded `limit`.
     [[nodiscard]] std::uint64_t low_mark(std::uint64_t limit) const;
     bool operator==(const Budgets&) const = default;
 };

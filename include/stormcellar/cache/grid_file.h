@@ -101,7 +101,7 @@ class GridFile {
     // Errors: truncated or corrupt if another program cut or lengthened it. Reading mapped codes of
     // a cut file raises SIGBUS, unless the program has installed the guard of cache/map_guard.h.
     // With the guard, the codes read as 0 (not seen), and check_whole() returns truncated
-    // afterward. So call it after using a view. Our own programs never cut a file.
+    // afterward. So call check_whole() after using a view. Our own programs never cut a file.
     [[nodiscard]] Status check_whole() const;
     // Reads the whole file again, but not through the map, so that a cut file gives an error.
     // Checks that header, table and states have not changed since open(), that every stored brick

@@ -6,7 +6,7 @@
 // form the group NAME, to which a budget applies.
 //
 // Threads   Pure functions.
-// Errors    None; a text of another form gives none or false.
+// Errors    None; a text without the form of a name gives none or false.
 #pragma once
 
 #include <compare>
@@ -38,7 +38,7 @@ struct GridName {
 [[nodiscard]] std::string_view group_of(std::string_view domain);
 [[nodiscard]] bool is_part(std::string_view domain);
 
-// Returns true for times from 1970 to 9999, the only ones that can be in a name.
+// Returns true for times from 1970 to 9999, the only times that can be in a name.
 [[nodiscard]] bool is_possible(UtcTime time);
 inline constexpr UtcTime last_possible_time{
     std::chrono::sys_days{std::chrono::year{10000} / 1 / 1} - std::chrono::milliseconds{1}};

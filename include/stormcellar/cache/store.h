@@ -2,15 +2,16 @@
 //
 // stormcellar/cache/grid_name.h defines layout and names. There is no index besides the names of
 // files. The domain of a station's own grids is its ICAO. A grid that is committed again for the
-// same time replaces the old one; a reader that has the old file open can still read it. Symbolic
-// links inside the store are not followed. Files with other names, or in other places, are never
-// listed or changed. Times are from 1970 to 9999.
+// same time replaces the old grid; a reader that has the old file open can still read it. Symbolic
+// links inside the store are not followed. Files whose names or places do not fit that layout are
+// never listed or changed. Times are from 1970 to 9999.
 //
-// A store is opened in one of three roles. Each offers everything that the previous one does:
+// A store is opened in one of three roles. Each role offers everything that the role before it
+// offers:
 //   StoreReader   lists grids and gives their paths; it never changes anything
-//   StoreWriter   commits and removes grids; it does not keep to budgets
-//   RollingStore  the only writer of a cache with budgets (stormcellar/cache/budget.h), which it
-//                 keeps to at each commit and each roll()
+//   StoreWriter   commits and removes grids; it ignores budgets
+//   RollingStore  the only writer of a cache with budgets (stormcellar/cache/budget.h), which each
+//                 commit and each roll() enforces
 //
 // Units     Sizes are in bytes on disk.
 // Threads   Many threads may use one store. Many processes may read and evict; one process writes.
@@ -54,7 +55,8 @@ struct Filling {
 };
 [[nodiscard]] Result<Filling> filling_of(const std::filesystem::path& directory);
 
-// The functions by which a rolling store asks about its surroundings. Tests replace them.
+// The functions by which a rolling store asks about its surroundings. Tests replace these
+// functions.
 struct Surroundings {
     std::function<UtcTime()> now = now_utc;
     std::function<Result<Filling>(const std::filesystem::path&)> filling = filling_of;
@@ -79,8 +81,8 @@ struct StoreUsage {
     bool operator==(const StoreUsage&) const = default;
 };
 
-// Removes the entries in the future (by is_believed()), unless all entries are in the future. It
-// serves callers that show the newest grid. `entries` must be sorted by time.
+// Removes the entries in the future (by is_believed()), unless all entries are in the future.
+// Callers that show the newest grid use this function. `entries` must be sorted by time.
 void leave_out_future(std::vector<StoreEntry>& entries, UtcTime now);
 
 class Roller;
@@ -89,7 +91,7 @@ class Roller;
 enum class Durability {
     power_cut,
     // The grid survives a crash of the process. After a power cut its file may be damaged, missing
-    // or the previous one. Use this for grids that are replaced within seconds and can be made
+    // or the previous file. Use this for grids that are replaced within seconds and can be made
     // again.
     until_a_crash,
 };
@@ -100,7 +102,7 @@ class StoreReader {
     // directory.
     static Result<StoreReader> open(std::filesystem::path directory);
 
-    // Returns the path of a grid of this name, which need not exist. Errors: bad_argument if
+    // Returns the path of a grid of this name. The grid need not exist. Errors: bad_argument if
     // is_domain_name() or is_possible() is false.
     [[nodiscard]] Result<std::filesystem::path> path_of(const std::string& domain,
                                                         level2::Moment moment, UtcTime time) const;
@@ -128,8 +130,8 @@ class StoreReader {
     std::filesystem::path directory_;
 };
 
-// The old name of StoreReader, which the next release removes. Programs that write use the name of
-// their role.
+// The old name of StoreReader. The next release removes this name. Programs that write use the name
+// of their role.
 using Store [[deprecated("StoreReader, StoreWriter or RollingStore")]] = StoreReader;
 
 class StoreWriter : public StoreReader {
@@ -144,8 +146,8 @@ class StoreWriter : public StoreReader {
     StoreWriter& operator=(const StoreWriter&) = delete;
     ~StoreWriter();
 
-    // Sets the form of bricks in the files of later commits, which are not packed by default. Call
-    // it before more than one thread calls commit().
+    // Sets the form of bricks in the files of later commits. By default, bricks are not packed.
+    // Call it before more than one thread calls commit().
     void pack_with(Packing packing) { packing_ = packing; }
 
     // Commits a grid and returns its path. Without budgets, the grid is always written. With
@@ -153,10 +155,10 @@ class StoreWriter : public StoreReader {
     // of a full cache, or is a grid of others beyond their share. On success the grid and new
     // directories survive a power cut, unless `durability` asks for less. If the disk is full and
     // Budgets::makes_room() is true, the oldest grids are evicted. Errors: bad_argument as in
-    // path_of() and write_grid_file(); over_budget if there is no room for a pinned grid or the
-    // newest grid of a domain and moment in a known group, because a limit is smaller than the grid
-    // or the grids in the cache are pinned or cannot be removed; no_space if the disk stays full
-    // (for a grid of others, an empty path is returned instead).
+    // path_of() and write_grid_file(). over_budget if a pinned grid, or the newest grid of a domain
+    // and moment in a known group, finds no room: it is larger than a limit, or the other grids are
+    // pinned or cannot be removed. no_space if the disk stays full; but for a grid of others,
+    // returns an empty path.
     Result<std::filesystem::path> commit(const std::string& domain,
                                          const GridDescription& description,
                                          const grid::BrickView& view,
@@ -173,7 +175,7 @@ class StoreWriter : public StoreReader {
   protected:
     StoreWriter(FileSystem& file_system, std::filesystem::path directory,
                 std::unique_ptr<Roller> roller);
-    // Returns the roller. Only a RollingStore may call it, because other writers have none.
+    // Returns the roller. Only a RollingStore may call it, because other writers have no roller.
     [[nodiscard]] Roller& roller() { return *roller_; }
     [[nodiscard]] const Roller& roller() const { return *roller_; }
 
@@ -195,7 +197,7 @@ class StoreWriter : public StoreReader {
     std::unique_ptr<Roller> roller_;               // null: no budgets
 };
 
-// A writer that keeps to budgets. Call roll() every few seconds, because only roll() checks the age
+// A writer that respects budgets. Call roll() every few seconds, because only roll() checks the age
 // of grids, how full the file system is, and changes by other programs.
 class RollingStore : public StoreWriter {
   public:

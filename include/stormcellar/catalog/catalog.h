@@ -1,10 +1,10 @@
 // stormcellar/catalog/catalog.h -- the catalog: one SQLite database for each station.
 //
 // DIRECTORY/KTLX.sqlite (WAL, user_version migrations) records which raw files exist, which volumes
-// they hold, and the results of ingesting them. The rows of existing files can always be made again
-// from the files. Files of unknown stations are recorded in _unknown.sqlite. Each path has one row;
-// registering the same facts again changes nothing. If a volume comes again in a file with other
-// contents, it is recorded again, with the next generation number.
+// they hold, and the results of ingesting the files. The rows of existing files can always be made
+// again from the files. Files of unknown stations are recorded in _unknown.sqlite. Each path has
+// one row; registering the same facts again changes nothing. If a volume comes again in a file with
+// different contents, it is recorded again, with the next generation number.
 //
 // A catalog is opened in one of two roles. A CatalogReader answers questions and never creates or
 // changes anything. A CatalogWriter answers the same questions, and registers files.
@@ -14,13 +14,13 @@
 // Damage    A writer that finds a damaged database sets it aside and continues with a new one,
 //           which has the rows of files that are gone (repair.h). take_repairs() reports the
 //           repair, and its caller must then register the existing files again. If a database was
-//           deleted while it was open, a new one is made and reported likewise.
+//           deleted while it was open, a new one is made, and take_repairs() reports this, too.
 // Stations  A rule tells a writer which stations are known. Only known stations have databases;
 //           files of all other stations are recorded among the files of unknown stations. Databases
 //           of other stations, which an attack or an older configuration left, are neither opened
 //           nor changed.
-// Bounds    The number of open databases, and the bytes of the rows of each database and of all,
-//           are limited.
+// Bounds    The number of open databases is limited. So are the bytes of the rows in each database,
+//           and in all databases together.
 // Threads   Many threads may use one catalog (each database has a mutex). Many processes may read
 //           while one writes.
 // Errors    io, no_space, permission, busy (with SQLite's reason), corrupt (damaged; from a writer
@@ -101,7 +101,7 @@ struct CatalogEntry {
     std::string reason;
     VolumeFacts volume;
     int number_in_file = 1;   // of the volume, from 1
-    int generation = 0;       // 0 at first; one more each time the volume comes with other contents
+    int generation = 0;       // 0 at first; one more each time the volume comes with new contents
     UtcTime registered_time;  // when the path got its row
     std::int64_t modified_ns = 0;
     std::uint64_t content_hash = 0;  // 0: unknown
@@ -115,7 +115,7 @@ struct Query {
     std::optional<std::size_t> newest = std::nullopt;
 };
 
-// A range of a station's volumes, of which at most `most` are returned.
+// A range of a station's volumes. At most `most` of them are returned.
 struct Stretch {
     std::optional<UtcTime> from = std::nullopt;  // inclusive, on the volume's start time
     std::optional<UtcTime> to = std::nullopt;    // inclusive
@@ -148,7 +148,8 @@ struct CatalogOptions {
     // The canonical path of the drop directory. It is recorded for programs that read the files
     // later (stormcellar/catalog/read_cataloged.h). Empty: the recorded path stays.
     std::filesystem::path drop;
-    // Limits of the bytes of rows: for files of unknown stations, for one station, and for all.
+    // Limits of the bytes of rows: for files of unknown stations, for one station, and for all
+    // files.
     std::uint64_t most_unknown_bytes = std::uint64_t{64} << 20;
     std::uint64_t most_station_bytes = std::uint64_t{1} << 30;
     std::uint64_t most_bytes = no_limit;
@@ -201,7 +202,7 @@ class CatalogReader {
     // sorted by station.
     [[nodiscard]] std::vector<Trouble> troubles() const;
     // Returns the directory into which raw files are dropped, as the writer recorded it. Errors:
-    // not_found if no writer did.
+    // not_found if no writer has recorded a directory.
     [[nodiscard]] Result<std::filesystem::path> drop_directory() const;
     // Returns the number of databases that are open.
     [[nodiscard]] std::size_t open_databases() const;
@@ -212,22 +213,22 @@ class CatalogReader {
     [[nodiscard]] Result<std::vector<CatalogEntry>> list(std::string_view station,
                                                          const Query& query) const;
     // Return the entry with the latest or oldest start; none if the station has no volume. An entry
-    // in the future (by is_believed()) is the latest only if all entries are.
+    // in the future (by is_believed()) is the latest only if all entries are in the future.
     [[nodiscard]] Result<std::optional<CatalogEntry>> latest(std::string_view station) const;
     [[nodiscard]] Result<std::optional<CatalogEntry>> oldest(std::string_view station) const;
     // Returns the row of a file in the station's database, without a volume; none if it has no row.
     [[nodiscard]] Result<std::optional<CatalogEntry>> find_file(
         std::string_view station, const std::filesystem::path& path) const;
-    // Returns volumes by start time. Uses the index and stops at `most`, so its time depends only
-    // on the entries that it returns or skips, not on all entries of the station.
+    // Returns volumes by start time. Uses the index and stops at `most`, so the time of a call
+    // depends only on the entries that it returns or skips, not on all entries of the station.
     [[nodiscard]] Result<std::vector<CatalogEntry>> list_stretch(std::string_view station,
                                                                  const Stretch& stretch) const;
     // Returns the start of the oldest volume in a file that is neither gone nor a member of an
-    // archive; none if no volume is in such a file. If none of the oldest 500 volumes is, reads the
-    // whole table of files, which takes 30 ms for 100,000 files.
+    // archive; none if no volume is in such a file. If none of the oldest 500 volumes is in such a
+    // file, reads the whole table of files, which takes 30 ms for 100,000 files.
     [[nodiscard]] Result<std::optional<UtcTime>> oldest_kept(std::string_view station) const;
-    // Returns the rows of at most `most` files, without a volume, whose paths begin with `prefix`,
-    // in any state, by path. Uses the index.
+    // Returns the rows of at most `most` files whose paths begin with `prefix`, in any state and
+    // without volumes, by path. Uses the index.
     [[nodiscard]] Result<std::vector<CatalogEntry>> files_with_prefix(std::string_view station,
                                                                       std::string_view prefix,
                                                                       std::size_t most) const;
@@ -254,8 +255,8 @@ class CatalogReader {
     std::unique_ptr<Impl> impl_;
 };
 
-// The old name of CatalogReader, which the next release removes. Programs that write use the name
-// of their role.
+// The old name of CatalogReader. The next release removes this name. Programs that write use the
+// name of their role.
 using Catalog [[deprecated("CatalogReader or CatalogWriter")]] = CatalogReader;
 
 class CatalogWriter : public CatalogReader {
@@ -283,8 +284,8 @@ class CatalogWriter : public CatalogReader {
     Result<int> mark_missing(const std::filesystem::path& directory,
                              const std::function<void()>& step = {});
 
-    // Marks the rows of an archive's members as gone, except `members`, because another archive has
-    // taken its place. Returns how many were marked.
+    // Marks the rows of a former archive's members as gone, except `members`, because another
+    // archive now has the path. Returns how many were marked.
     Result<int> mark_former_members(const std::filesystem::path& archive,
                                     const std::set<std::filesystem::path>& members);
 
@@ -295,8 +296,8 @@ class CatalogWriter : public CatalogReader {
 
     // Deletes rows of files that are gone, the oldest first, if rows exceed their limits. First
     // shrinks each database beyond its own limit. Then, while the total exceeds its limit, shrinks
-    // the largest database, unless that is within an equal share of the total. Never deletes rows
-    // of existing files. Call it now and then, like forget_gone().
+    // the largest database, unless this database is within an equal share of the total. Never
+    // deletes rows of existing files. Call it now and then, like forget_gone().
     Result<Rolled> roll(const std::function<void()>& step = {});
 
     // Returns the databases of stations that the rule does not know; they are not opened.
@@ -309,8 +310,8 @@ class CatalogWriter : public CatalogReader {
     Status examine_all();
     // Returns the repairs since the last call. If there are any, also calls read_archives_again().
     std::vector<Repair> take_repairs();
-    // Makes settled archives count as changed from now on, because rows of their members may be
-    // lost.
+    // Marks settled archives as changed, so that they are read again, because rows of their members
+    // may be lost.
     void read_archives_again();
 
   private:

@@ -23,7 +23,7 @@ namespace stormcellar::catalog {
 
 class RadarSet {
   public:
-    // Opens a set for each station of a catalog whose database can be read, sorted by ICAO.
+    // Opens a set for each cataloged station whose database can be read, sorted by ICAO.
     static Result<std::vector<RadarSet>> open_all(const std::filesystem::path& catalog_directory);
     // Opens a station. Errors: not_found if the catalog has no such station, bad_argument for a
     // name that no station has.

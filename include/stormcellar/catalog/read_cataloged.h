@@ -5,18 +5,19 @@
 // that only the reader may read. So a file is opened beneath the drop directory, without following
 // symbolic links below it (base/beneath.h), and its size and hash are compared with its row.
 //
-// If the catalog has no record of the drop directory (it was written before 2026-11-25), or a row's
-// path is not below it (the drop directory was elsewhere then), the file is opened from "/". Then
-// no part of the path may be a link, because no part was a link when the path was cataloged.
+// A file is opened from "/" in two cases: the catalog has no record of the drop directory (the
+// catalog was written before 2026-11-25), or the row's path is not below the drop directory (which
+// was elsewhere then). Then no part of the path may be a link, because no part was a link when the
+// path was cataloged.
 //
 // The row of a file that was growing (`seen`) or could not be read has no final hash, so the
 // contents are not compared. But the file must be regular, have at least the cataloged size, and
 // have a single name, because a hard link to another user's file could be read, too.
 //
 // Threads   Functions without state; the catalog is only read.
-// Errors    not_found or not_a_file if there is no regular file, or a link in the path; corrupt if
-//           it is not the file that was cataloged; unsupported beyond 1 GiB; permission; io; for a
-//           member, those of reading its archive.
+// Errors    not_found or not_a_file if there is no regular file, or if the path leads through a
+//           link; corrupt if the file is not the cataloged one; unsupported beyond 1 GiB;
+//           permission; io; for a member, those of reading its archive.
 #pragma once
 
 #include <cstddef>

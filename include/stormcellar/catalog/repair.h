@@ -1,11 +1,11 @@
 // stormcellar/catalog/repair.h -- sets a damaged database aside, and makes a new one from the rows
 // that can be saved.
 //
-// KTLX.sqlite is renamed to KTLX.sqlite.damaged-YYYYMMDD_HHMMSS, and its -wal and -shm likewise.
-// Nothing reads these files any more, and the operator may delete them. The new database has the
-// rows of raw files that are gone (or cannot be examined), as `gone`, because these rows could not
-// be made again. Rows of existing files are not taken over, because reading the files again gives
-// better rows than a damaged page.
+// KTLX.sqlite is renamed to KTLX.sqlite.damaged-YYYYMMDD_HHMMSS. Its files -wal and -shm are
+// renamed in the same way. Nothing reads these files any more, and the operator may delete them.
+// The new database has the rows of raw files that are gone (or cannot be examined), because these
+// rows could not be made again. Their state is `gone`. Rows of existing files are not taken over,
+// because reading the files again gives better rows than a damaged page.
 //
 // Threads   Nothing else may have the database open, in this process or another.
 // Errors    See each function.
@@ -31,8 +31,8 @@ struct Repair {
 };
 
 // The result of examining a database: the faults (only the first few of a kind), one line each;
-// empty if it is sound. A later version, or a database of another program, is listed as a fault,
-// too, although it is not damage.
+// empty if the database is sound. A later version, or a database of another program, is listed as a
+// fault, too, although it is not damage.
 struct Examination {
     std::vector<std::string> damage;
     bool foreign = false;  // of a later version or another program, so it must not be repaired

@@ -4,8 +4,8 @@
 // The dimensions are time (the radials of all sweeps, in file order), sweep, string_length and
 // range. A moment is a packed integer variable named REF, VEL, SW, ZDR, PHI, RHO or CFP on (time,
 // range). The variable holds the codes as they came, with scale_factor and add_offset in double. If
-// the gates of a volume differ in length, RangeAxes chooses between one axis, on which long gates
-// are repeated, and one axis for each pair of first gate and spacing (REF_2 on range_2). Gates that
+// the gates of a volume differ in length, RangeAxes chooses the axes: one axis, on which long gates
+// are repeated, or one axis for each pair of first gate and spacing (REF_2 on range_2). Gates that
 // differ in scale or word size are variables of their own (REF_2). No code is changed. A gate
 // without a value is _FillValue; REF_status distinguishes valid, below threshold, range folded, no
 // data and the flags of CFP. docs/export.md lists every variable.

@@ -28,7 +28,7 @@ struct GridSurface {
 };
 inline constexpr std::size_t most_surfaces = 16;
 
-// The choices of some formats. Other formats ignore them.
+// Choices that only some formats use. The other formats ignore these choices.
 struct GridFormatOptions {
     std::vector<GridSurface> surfaces;  // the outermost first
     double height_scale = 1;            // factor on heights
@@ -42,8 +42,8 @@ struct GridFormat {
     // cannot hold; internal if a library refuses; those of the file system.
     Status (*write)(FileSystem& file_system, const std::filesystem::path& path,
                     std::span<const grid::Grid> grids, const GridFormatOptions& options);
-    // For a format that writes a directory: checks, before long work, that it can. Null for a
-    // format that writes a file.
+    // For a format that writes a directory: checks, before long work, that the directory can be
+    // written. Null for a format that writes a file.
     Status (*check_directory)(const std::filesystem::path& path) = nullptr;
     bool has_surfaces = false;  // true if the format takes the surfaces and the factor on heights
 };

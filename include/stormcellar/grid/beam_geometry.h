@@ -55,7 +55,7 @@ class BeamGeometry {
     [[nodiscard]] BeamPoint over(double arc_m, double elevation_deg) const noexcept;
 
     // height_over() returns over().height_m within 1e-8 m. A caller with many arcs and elevations
-    // computes the angle of each arc and of each elevation once, and passes them here in pairs.
+    // computes the angle of each arc and of each elevation once, and passes these angles in pairs.
     struct Angle {
         double sine = 0, cosine = 1;
     };

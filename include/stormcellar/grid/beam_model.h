@@ -97,10 +97,10 @@ class BeamModel {
 // the difference exceeds the result by less than 0.1 m (enforced for levels at least 50 m apart,
 // without ducts). A table that is linear between the same points differs no more.
 struct BeamLimits {
-    double arc_m = 470e3;  // arcs from 0 to here
+    double arc_m = 470e3;  // the greatest arc
     double range_m = 470e3;
-    double floor_m = 0;       // heights from here
-    double ceiling_m = 20e3;  // to here
+    double floor_m = 0;       // the least height
+    double ceiling_m = 20e3;  // the greatest height
 };
 struct BeamDifference {
     double height_m = 0;  // over the same arc

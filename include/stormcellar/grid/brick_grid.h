@@ -42,8 +42,8 @@ class BrickGrid {
     [[nodiscard]] const GridSpec& spec() const { return spec_; }
 
     // Takes over the states and counts of the writers. Each writer must have written its bricks in
-    // rising order, and all of them must come after the bricks of the writer before it, so that the
-    // states are in the order of their bricks.
+    // rising order, after all bricks of the writer before it, so that the states are in the order
+    // of their bricks.
     void finish(std::span<BricksWriter> writers);
 
     // To write bricks anew, call clear() for each brick, which makes its cells not seen, and write

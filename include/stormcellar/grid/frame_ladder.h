@@ -1,9 +1,9 @@
 // stormcellar/grid/frame_ladder.h -- the rungs of the site frame: how to find azimuth and arc from
 // a site, and how far off each rung may put a column.
 //
-// The error of a column is the distance from its true place (by geodesics of WGS84) to the place
-// that its azimuth and arc in a ColumnGeometry give, in the azimuthal equidistant plane about the
-// site.
+// A column has a true place (by geodesics of WGS84), and a place that its azimuth and arc in a
+// ColumnGeometry give. The error of the column is the distance between the two, in the azimuthal
+// equidistant plane about the site.
 //
 // tests/grid/frame_ladder_test.cpp enforces each of these bounds, for grids all around their site,
 // sites from pole to pole and reaches of 15 to 450 km. It checks that no error exceeds the bound,
@@ -14,7 +14,7 @@
 //   table     1e-3 m and storage. Polynomials pass through exact geodesics at their nodes and are
 //             checked where their error peaks. Where they cannot keep the bound, the geodesic is
 //             solved exactly (grid/place/frame_table.h).
-//   sphere    The integral along the arc of the largest error in scale of the sphere (see
+//   sphere    The largest error in scale of the sphere, integrated along the arc (see
 //             docs/geometry.md): 239 / 573 / 1226 m at 100 / 230 / 460 km and 35 N.
 // If the grid's projection is azimuthal equidistant about the site itself, every rung uses a closed
 // form, and storage is the only error.

@@ -55,10 +55,11 @@ struct FramePart {
     bool operator==(const FramePart&) const = default;
 };
 
-// The origin of a grid, and how it was made. Every grid file and every loop file holds it.
+// The origin of a grid, and how it was made. Every grid file and every loop file holds a
+// Provenance.
 struct Provenance {
     // Names of the volumes by level2::volume_name(), so that a grid has the same bytes on every
-    // machine. Grids that never reach a cache have the names of their files instead, without
+    // machine. Grids that never reach a cache have the names of the volumes' files instead, without
     // directories.
     std::vector<std::string> source_files;
     std::vector<std::string> stations;  // ICAOs

@@ -2,7 +2,7 @@
 // a place with linear weights.
 //
 // A place is within the grid if it is between the centers of the outermost cells. In a grid with
-// one level, it must be exactly at that level.
+// one level, the place must be exactly at that level.
 //
 // Units     Columns are counted as in GridProjection (ix is the center of column ix). Levels are
 //           counted in the same way; between two levels they are linear in height (meters).
@@ -34,7 +34,7 @@ class GridSampler {
     // lowest level and above the highest.
     [[nodiscard]] double level_at(double height_m) const;
     // Finds the eight cells around a place and their weights. Returns false if the place is outside
-    // the grid or NaN. If all eight are in a brick with a single status, the first has all the
+    // the grid or NaN. If all eight are in a brick with a single status, the first cell has all the
     // weight.
     [[nodiscard]] bool find(ColumnPoint column, double level, Corners& corners) const;
     // Returns the weighted mean, or none unless every cell with a weight above 0 has a value.

@@ -90,7 +90,7 @@ struct GridSpec {
     [[nodiscard]] std::size_t cell_count() const { return column_count() * levels_m.size(); }
 
     // These return the size of a column in meters: the spacing, or for a projection in degrees the
-    // width or height at the center of the grid. Pictures treat such a grid as a plane.
+    // width or height at the center of the grid. Pictures treat a grid in degrees as a plane.
     [[nodiscard]] double cell_width_m() const {
         return in_degrees() ? width_at_center_m() : spacing_m;
     }
@@ -102,7 +102,7 @@ struct GridSpec {
     [[nodiscard]] double center_x() const { return 0.5 * (nx - 1) - offset_x_cells; }
     [[nodiscard]] double center_y() const { return 0.5 * (ny - 1) - offset_y_cells; }
     // These return the center of column ix (meters east of the grid's center) and of row iy (meters
-    // north of the grid's center), with columns of this size.
+    // north of the grid's center), with columns of cell_width_m() by cell_height_m().
     [[nodiscard]] double x_m(int ix) const { return (ix - center_x()) * cell_width_m(); }
     [[nodiscard]] double y_m(int iy) const { return (iy - center_y()) * cell_height_m(); }
     // These return the center of column ix and of row iy in meters from the middle of the grid,

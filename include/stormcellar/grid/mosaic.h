@@ -28,7 +28,7 @@
 // A cell that no site sees is not seen. With a single site, every cell is as in its partial.
 //
 // Units     Meters for distances; values are in the unit of the moment.
-// Threads   Pure functions, but for update_in_place(), which changes its mosaic. The result has the
+// Threads   Pure functions, except update_in_place(), which changes its mosaic. The result has the
 //           same bits for any number of threads and any order of the partials (sums run in the
 //           order of ICAO, then position).
 // Errors    See each function.
@@ -125,10 +125,10 @@ struct Mosaic {
                                     std::span<const GridWindow> changed,
                                     const MosaicOptions& options);
 
-// Changes `mosaic` into the same bits as update() returns. Copies nothing, so the call costs only
+// Changes `mosaic` into the bits that update() would return. Copies nothing, so the call costs only
 // the merging of the changed bricks and one pass over the table and the states. The call needs only
 // the partials whose windows touch `changed`. A mosaic too large for all partials at once can be
-// made stripe by stripe from an empty one, which merge() of no partials returns.
+// made stripe by stripe from an empty mosaic, which merge() returns if it gets no partials.
 //
 // No view of the mosaic may be in use. Errors: the errors of update(); the mosaic is then
 // unchanged.

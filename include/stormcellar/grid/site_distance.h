@@ -1,12 +1,12 @@
 // stormcellar/grid/site_distance.h -- computes how far the columns of a window are from a site,
 // with few geodesics.
 //
-// Merging (stormcellar/grid/mosaic.h) needs the square of the arc to each column, which is smooth.
-// So the constructor solves geodesics only at nodes, which neighboring patches of columns share;
-// inside a patch the square is a polynomial of second degree in both directions through the patch's
-// nodes. Nodes are 8, 4 or 2 columns apart: the widest spacing that keeps the accuracy. If even 2
-// columns are too wide, every column is a node. The constructor checks patches where their error
-// peaks: all patches, or about one in 16 if there are many.
+// Merging (stormcellar/grid/mosaic.h) needs the square of the arc to each column. The square is
+// smooth. So the constructor solves geodesics only at nodes, which neighboring patches of columns
+// share; inside a patch the square is a polynomial of second degree in both directions through the
+// patch's nodes. Nodes are 8, 4 or 2 columns apart: the widest spacing that keeps the accuracy. If
+// even 2 columns are too wide, every column is a node. The constructor checks patches where their
+// error peaks: all patches, or about one in 16 if there are many.
 //
 // A window of 460 km about a site at 1 km takes 15,000 geodesics (some 20 ms) and 0.1 MiB, so make
 // a SiteDistance once for a site and keep it.

@@ -46,8 +46,8 @@ struct ChosenSweep {
 // plausible angles, and was measured within `half_beam_deg` of the median elevation of its sweep.
 //
 // Without `nearest_to`, the newest of equally good sweeps is chosen, which is the last in the file.
-// With `nearest_to`, the sweep with the median time nearest to it is chosen, or the later one if
-// two are equally near. A sweep without times is chosen only if none has times.
+// With `nearest_to`, the sweep with the median time nearest to it is chosen, or the later sweep if
+// two are equally near. A sweep without times is chosen only if no sweep has times.
 [[nodiscard]] std::vector<ChosenSweep> choose_sweeps(
     const level2::Volume& volume, level2::Moment moment, double half_beam_deg,
     std::optional<UtcTime> nearest_to = std::nullopt);

@@ -53,7 +53,7 @@ struct DecodeOptions {
                                      const DecodeOptions& options = {});
 
 // Reads and decodes a file. If the content does not name the station, the first four characters of
-// the file name give it, provided that the station table knows them. Error messages begin with the
+// the file name give it, provided that the station table has them. Error messages begin with the
 // path. Errors: as for read_file() and decode().
 [[nodiscard]] Result<Decoded> decode_file(const std::filesystem::path& path,
                                           const DecodeOptions& options = {});

@@ -29,7 +29,7 @@ struct Problem {
     // offset in the file.
     std::optional<std::uint64_t> offset;
     std::optional<std::uint64_t> ldm_record;  // the bad record; counts from 1
-    // Number of messages with this problem, if one Problem stands for many. Then `offset` and
+    // Number of messages with this problem, if one Problem covers many messages. Then `offset` and
     // `ldm_record` belong to the first message. The count is 0 if the Problem describes one place.
     std::uint64_t count = 0;
     std::uint64_t dropped_bytes = 0;  // of all these messages together
@@ -46,10 +46,10 @@ struct DecodeReport {
     std::uint64_t message_bytes = 0;  // decompressed, after the 24-byte header
     std::map<int, std::uint64_t> message_counts;
     std::uint64_t bytes_dropped = 0;  // of messages, or of the file if a compressed part is lost
-    std::vector<Problem> problems;    // at most max_problems, and all with a count
+    std::vector<Problem> problems;    // all with a count, and at most max_problems without
     static constexpr std::size_t max_problems = 100;
     std::uint64_t problems_left_out = 0;
-    std::uint64_t errors = 0;  // number of problems of that severity, listed or not
+    std::uint64_t errors = 0;  // number of problems that are errors, listed or not
     // First place where the decoder expected a message and found none; empty for an undamaged
     // stream. The dropped bytes may begin earlier; the Problem has the offset of the first dropped
     // byte. The golden files (tests/level2/golden_test.cpp) use the same definition.

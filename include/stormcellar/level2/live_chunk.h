@@ -1,5 +1,5 @@
 // stormcellar/level2/live_chunk.h -- the decoded content of one chunk of a live volume. A depot
-// (stormcellar/level2/sweep_depot.h) may store its sweeps.
+// (stormcellar/level2/sweep_depot.h) may store the chunk's sweeps.
 //
 // Units     Sizes are in bytes.
 // Threads   Plain data; the functions have no state beyond their arguments.

@@ -7,13 +7,13 @@
 //
 // A chunk that comes twice counts once. If two chunks of one number differ, the chunk that holds
 // more is kept, whichever comes first. A start chunk of another volume shows that the radar has
-// begun again. add() refuses that chunk, and the caller can finish the present ones. After a
-// restart of the program, the caller adds the chunks in its directory again.
+// begun again. add() refuses that chunk, and the caller can finish the volume that has come so far.
+// After a restart of the program, the caller adds the chunks in its directory again.
 //
 // Memory    With a depot, little more than the first and the last radial of each piece of a sweep.
-//           The decompressed bytes of all chunks stay within the output limit of the decoder, and
-//           their memory within its limit for arrays. A chunk that would exceed a limit is refused;
-//           only then does the order matter.
+//           The decompressed bytes of all chunks stay within the decoder's limit of output, and the
+//           memory of all chunks within the decoder's limit of arrays. A chunk that would exceed a
+//           limit is refused; only then does the order matter.
 // Units     Sizes are in bytes.
 // Threads   One thread at a time.
 // Errors    See each function.
@@ -66,10 +66,10 @@ class LiveVolume {
         worse,           // the new chunk holds less and is dropped
         another_volume,  // refused: its header differs from the first header of this number
     };
-    // Adds a chunk that came at `now`. An error leaves the present chunks as they were:
+    // Adds a chunk that came at `now`. An error leaves the chunks that were added before unchanged:
     // - bad_argument for a number that is not within 1 to 999;
     // - not_level2, empty, corrupt or truncated for a chunk that holds nothing whole; finish()
-    //   reports it unless a good chunk of its number comes;
+    //   reports the bad chunk unless a good chunk of the same number comes;
     // - unsupported if the chunk exceeds a limit;
     // - exhausted if the system has no more memory; the caller should add the chunk again.
     [[nodiscard]] Result<Added> add(int number, ChunkKind kind, std::span<const std::byte> bytes,
@@ -85,7 +85,8 @@ class LiveVolume {
     // Returns true if an end chunk, a radial marked as the last of the volume, or a chunk with
     // radials and a negative control word has come.
     [[nodiscard]] bool has_ended() const;
-    // Returns the numbers below the highest number for which no readable chunk has come.
+    // Returns the numbers for which no readable chunk has come. Numbers above the highest
+    // readable chunk are left out.
     [[nodiscard]] std::vector<int> missing_numbers() const;
     // Returns true if no chunk is missing from the first to the end.
     [[nodiscard]] bool is_whole() const { return has_ended() && missing_numbers().empty(); }

@@ -67,7 +67,7 @@ struct RdaStatus {
     std::uint16_t control = 0;                    // 2 local only, 4 RPG only, 8 either
     std::uint16_t power = 0;                      // rda_power
     std::uint16_t transmitter_w = 0;              // average power, W
-    float horizontal_correction_db = 0;           // dBZ0 as measured minus as adapted
+    float horizontal_correction_db = 0;           // measured dBZ0 minus the adaptation data's dBZ0
     std::optional<float> vertical_correction_db;  // from build 13 on
     std::uint16_t data_enabled = 0;               // rda_data
     int vcp = 0;                                  // 0: none

@@ -214,8 +214,8 @@ struct Volume {
 // Returns true if `time` is in 1970 to 2149, the years that messages can express. A message without
 // a date (day number 0) gives a time before 1970.
 [[nodiscard]] bool is_plausible(UtcTime time);
-// Returns true if `time` is plausible and within 6 hours of `start`, if `start` is known. A volume
-// takes minutes, but a damaged radial may have any time.
+// Returns true if `time` is plausible. If `start` is known, `time` must also be within 6 hours of
+// `start`. A volume takes minutes, but a damaged radial may have any time.
 [[nodiscard]] bool is_time_of_volume(UtcTime time, std::optional<UtcTime> start);
 
 // Returns the radial's status without the top bit, which marks bad data.
@@ -231,7 +231,7 @@ struct Volume {
 //   comes from the table.
 // - If it is up to 1 degree off, the radar has moved, and the message is right.
 // - If it is farther off, or the file has no position, everything comes from the table.
-// antenna_position() returns none if neither the file nor the table knows the site.
+// antenna_position() returns none if neither the file nor the table has the site.
 struct AntennaPosition {
     double latitude_deg = 0;
     double longitude_deg = 0;

@@ -17,7 +17,7 @@
 // even sizes, so a picture with an odd size gets its last column or row twice. Formats drop alpha
 // unless the list above says that they keep it.
 //
-// The file appears whole, by rename, at finish(), and replaces an old one. A writer that does not
+// The file appears whole, by rename, at finish(), and replaces an old file. A writer that does not
 // finish leaves nothing behind. A directory is replaced if it is empty or holds only frames. This
 // takes two renames; a crash between them can leave the old directory under a temporary name. The
 // same frames give the same bytes, with the same versions of the libraries.
@@ -71,7 +71,7 @@ class AnimationWriter : public Interface {
     // build does not know (the message lists the known endings), for options outside their range,
     // and for metadata with a zero byte or with a keyword that is empty or longer than 79
     // characters; unsupported if the module for videos is missing; the system's reason if the file
-    // cannot be written. create() checks this before any frame is drawn.
+    // cannot be written. create() notices all these errors before any frame is drawn.
     static Result<std::unique_ptr<AnimationWriter>> create(
         const std::string& output, const AnimationOptions& options,
         FileSystem& file_system = real_file_system());

@@ -28,9 +28,10 @@ struct FrameFacts {
     // The faults that radars report about themselves: "KTLX: standby, maintenance required".
     std::vector<std::string> radar_troubles = {};
     std::vector<std::string> left_out = {};  // machines whose data are missing (grid::Provenance)
-    // The motion to which the storm-relative velocity SRV refers, if all sites have the same.
+    // The motion to which the storm-relative velocity SRV refers, if all sites have the same
+    // motion.
     std::optional<retrieve::Motion> storm_motion = {};
-    // The echo that was left out because it is probably no weather (quality_in_notes()), or empty.
+    // Remark on the echo that was left out as probably no weather (quality_in_notes()), or empty.
     std::string quality = {};
     // The rung that dealiased the velocities of a grid of shear; empty for other grids.
     std::string dealiasing = {};

@@ -1,5 +1,5 @@
 // stormcellar/render/overlays.h -- what is drawn over a picture besides its map: columns of
-// rotation, marks of storm cells, and shapes from files of others, such as warnings.
+// rotation, marks of storm cells, and shapes from files of other programs, such as warnings.
 //
 // Units     As in stormcellar/retrieve/storm_cells.h; widths in pixels at scale 1.
 // Threads   Plain data.
@@ -29,7 +29,7 @@ struct CellOverlay {
 // A line or a point on the ground. The outline of an area is a line that ends where it begins.
 struct OverlayShape {
     std::vector<grid::GeoPoint> points;  // one point: a dot with a label
-    std::optional<Rgba8> color = {};     // none: that of the map's text
+    std::optional<Rgba8> color = {};     // none: the color of the map's text
     float width = 2;
     std::string label = {};                        // of a point
     std::optional<UtcTime> from = {}, until = {};  // when it is in force; none: no limit
@@ -49,7 +49,7 @@ struct ShapeOverlay {
 struct Overlays {
     const grid::BrickView* rotation = nullptr;  // over a volume; on the grid of the picture
     const CellOverlay* cells = nullptr;         // over a map or a volume
-    const ShapeOverlay* shapes = nullptr;       // in the same way
+    const ShapeOverlay* shapes = nullptr;       // over a map or a volume
 };
 
 }  // namespace stormcellar::render

@@ -63,7 +63,7 @@ struct ProductFacts {
     std::string (*title)(const Scene&) = nullptr;    // "Echo tops, 18.5 dBZ"
     std::string_view unit = {};                      // empty: the moment's
     const ColorTable& (*colors)() = nullptr;         // null: the moment's
-    std::optional<level2::Moment> only_moment = {};  // the moment of which it is made; none: any
+    std::optional<level2::Moment> only_moment = {};  // the only moment it is made of; none: any
     // The value that echo must reach for a column to have a value.
     double Scene::*threshold_dbz = nullptr;
     bool may_be_higher = false;  // for tops: the picture marks where the true value may be larger
@@ -72,12 +72,12 @@ struct ProductFacts {
     bool is_smooth = false;  // true if the map may be drawn smoothly
     // True if the product draws a sweep (BrickView::sweep) instead of a grid.
     bool is_of_sweep = false;
-    std::optional<HeightLayer> layer = {};  // of which the product shows the largest value
+    std::optional<HeightLayer> layer = {};  // the layer whose largest value it shows
     float retrieve::Hail::*hail = nullptr;  // for hail: the number that it shows
     // True if the product shows the largest values of several volumes
     // (cli/picture/frame_sources.h).
     bool is_over_time = false;
-    bool is_sum = false;  // true if a product over time shows sums instead
+    bool is_sum = false;  // true: a product over time shows sums, not largest values
 };
 
 [[nodiscard]] std::span<const ProductFacts> all_products();

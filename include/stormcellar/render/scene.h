@@ -28,8 +28,8 @@ namespace stormcellar::render {
 // the command line take them from here. Azimuths may be any finite number.
 namespace limits {
 inline constexpr NumberRange side_px{16, 8192};        // width and height
-inline constexpr NumberRange tilt_deg{0, 90};          // of a camera that looks from outside
-inline constexpr NumberRange tilt_of_eye_deg{0, 180};  // of a camera with a place of its own
+inline constexpr NumberRange tilt_deg{0, 90};          // of a camera without an `eye`
+inline constexpr NumberRange tilt_of_eye_deg{0, 180};  // of a camera with an `eye`
 inline constexpr NumberRange zoom{0.01, 1000};
 inline constexpr NumberRange field_of_view_deg{1, 150};  // or 0
 inline constexpr NumberRange eye_m{-1e7, 1e7};           // to the east, and to the north
@@ -57,17 +57,17 @@ struct Eye {
     double x_m = 0, y_m = 0, height_m = 0;
 };
 
-// A camera without a place of its own is outside the grid and looks at the middle of the box that
-// holds the cells and the ground under them.
+// A camera without an `eye` is outside the grid and looks at the middle of the box that holds the
+// cells and the ground under them.
 struct Camera {
-    double azimuth_deg = 180;  // direction to the camera; from 180, the south, north is up
-    double tilt_deg = 55;      // from the vertical: 0 straight down, 90 along the ground, and for a
-                               // camera with a place of its own 180 straight up
-    double zoom = 1;           // 1: the whole grid fits into the image
-    double field_of_view_deg = 0;           // across the image at zoom 1; 0: orthographic
+    double azimuth_deg = 180;      // direction to the camera; from 180, the south, north is up
+    double tilt_deg = 55;          // from the vertical: 0 straight down, 90 along the ground, 180
+                                   // straight up (only with an `eye`)
+    double zoom = 1;               // 1: the whole grid fits into the image
+    double field_of_view_deg = 0;  // across the image at zoom 1; 0: orthographic
     std::optional<Eye> eye = std::nullopt;  // needs a field of view
-    // The point in the middle of the picture. A camera with a place of its own turns to this point
-    // and ignores its azimuth and tilt; a camera that looks from outside keeps both.
+    // The point in the middle of the picture. A camera with an `eye` turns to this point and
+    // ignores its azimuth and tilt; a camera without an `eye` keeps both.
     std::optional<Eye> look_at = std::nullopt;
 };
 

@@ -35,10 +35,10 @@ struct Units {
     Unit height = Unit::km;
 };
 
-// Reads "knots,miles,kft", in any order and case. A quantity without a name keeps its default unit.
-// km is the unit of both distances and heights, unless another unit is named for one of them.
-// Errors: bad_argument for an unknown name (the message gives the nearest known name or lists all)
-// and for two units of one quantity.
+// Reads "knots,miles,kft", in any order and case. A quantity whose unit is not named keeps its
+// default unit. km is the unit of both distances and heights, unless another unit is named for one
+// of them. Errors: bad_argument for an unknown name (the message gives the nearest known name or
+// lists all names) and for two units of one quantity.
 [[nodiscard]] Result<Units> units_from_names(std::string_view names);
 // Returns "m/s,km" or "knots,miles,kft", in the form that units_from_names() reads.
 [[nodiscard]] std::string unit_names(const Units& units);

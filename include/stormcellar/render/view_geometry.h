@@ -1,15 +1,15 @@
 // stormcellar/render/view_geometry.h -- where points of the grid are in the picture.
 //
 // Drawn space  x points east, y north, and z is the height above sea level times the vertical
-//              exaggeration, in meters from the middle of the grid. For a latitude-longitude grid
-//              these are the meters at its center, see GridSpec::cell_width_m(). If the earth is
-//              drawn curved, a point at the distance r from the middle is r^2 / (2 R) lower, with R
-//              = 6,371 km, before the exaggeration. This parabola differs from the sphere by less
-//              than 1 % of the drop within 1,000 km.
-// Camera       Orthographic or perspective. A camera without a place of its own looks at the middle
-//              of the box that holds the grid (the cells and the ground below them). At zoom 1 that
-//              box just fits into the picture. A look_at of such a camera moves the picture and
-//              keeps the scale.
+//              exaggeration, in meters from the middle of the grid. In a latitude-longitude grid
+//              all columns have the size in meters of the column at the center
+//              (GridSpec::cell_width_m()). If the earth is drawn curved, a point at the distance r
+//              from the middle is r^2 / (2 R) lower, with R = 6,371 km, before the exaggeration.
+//              This parabola differs from the sphere by less than 1 % of the drop within 1,000 km.
+// Camera       Orthographic or perspective. A camera without an `eye` looks at the middle of the
+//              box that holds the grid (the cells and the ground below them). At zoom 1 that box
+//              just fits into the picture. The look_at of such a camera moves the picture and keeps
+//              the scale.
 // Pixels       (0, 0) is the top left corner of the picture, (0.5, 0.5) the middle of its first
 //              pixel.
 // Depth        Meters along forward(), from the camera (perspective) or from the middle

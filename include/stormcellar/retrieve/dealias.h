@@ -4,11 +4,11 @@
 // is raw + 2 n Nyquist, where the fold number n is whole. dealias() finds n. Values are never
 // smoothed, replaced or invented.
 //
-// Rungs     The methods, from the simplest on:
+// Rungs     The methods, the simplest first:
 //           profile   takes the fold number that brings a gate nearest to the wind at its height
 //           region    joins gates of similar velocity into regions, and unfolds the regions so that
-//                     neighboring gates agree as well as they can. The main echo of a sweep has a
-//                     mean fold number near 0; echo on its own that nothing joins to it is
+//                     neighboring gates agree as well as they can. The mean fold number of a
+//                     sweep's main echo is near 0; smaller echo that is not joined to it is
 //                     ambiguous.
 //           anchored  unfolds the regions so that they also agree with the wind at their height and
 //                     with the sweeps above and below
@@ -18,13 +18,13 @@
 // Accuracy  The rung `anchored` is right at 99.9 % of the gates of uniform, sheared and rotating
 //           winds with 1 m/s of noise, for Nyquist velocities from 8 to 33 m/s
 //           (tests/retrieve/dealias_test.cpp). In noisy data the search may stop before the best
-//           solution. `ambiguous` marks about a third of the wrong gates. If each sweep of a
-//           volume is dealiased alone with those before it as `known`, at most 0.1 % of the gates
-//           get another velocity than in the whole volume, and 0.5 % another mark
+//           solution. `ambiguous` marks about a third of the wrong gates. Each sweep of a volume
+//           may be dealiased alone, with the sweeps before it as `known`. Then at most 0.1 % of the
+//           gates get another velocity than in the whole volume, and 0.5 % another mark
 //           (tests/retrieve/known_sweeps_test.cpp).
-// Errors    dealiasing_from_name() and add_dealiased_velocity() say what is wrong. dealias() has
-//           none: the fold number is 0 for gates without a value, for radials whose Nyquist
-//           velocity is missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
+// Errors    See dealiasing_from_name() and add_dealiased_velocity(). dealias() returns no errors:
+//           the fold number is 0 for gates without a value, for radials whose Nyquist velocity is
+//           missing (TDWR) or not from 1 to 200 m/s, and where `profile` has no wind.
 // Threads   Pure functions.
 #pragma once
 
@@ -40,8 +40,8 @@
 
 namespace stormcellar::retrieve {
 
-// `automatic` is `anchored`. If needs_dealiasing() finds no need, it is `off`, but gates of radials
-// without a usable Nyquist velocity are ambiguous.
+// `automatic` is `anchored` if needs_dealiasing() returns true. Otherwise it is `off`, but marks
+// gates of radials without a usable Nyquist velocity as ambiguous.
 enum class Dealiasing : std::uint8_t { off, profile, region, anchored, automatic };
 
 // The words of options: off, profile, region, anchored, auto.
@@ -65,18 +65,20 @@ struct SweepFolds {
 struct Dealiased {
     std::vector<SweepFolds> sweeps;  // of all velocity moments, in the order of the volume
     // Number of pairs of adjacent gates, and of pairs whose received velocities differ by more than
-    // the Nyquist velocity. Pairs inside a run (regions.h) do not count; both are 0 from `profile`.
+    // the Nyquist velocity. Pairs inside a run (regions.h) do not count. The rung `profile` counts
+    // no pairs.
     std::int64_t pairs = 0, jumps = 0;
     std::int64_t gates = 0, folded_gates = 0, ambiguous_gates = 0;
-    Dealiasing rung = Dealiasing::off;  // never `automatic`
+    Dealiasing rung = Dealiasing::off;  // the rung that was used, never `automatic`
 };
 
-// Finds the fold numbers of all velocity moments. With Dealiasing::off, all are 0.
+// Finds the fold numbers of all velocity moments. With Dealiasing::off, all fold numbers are 0.
 //
-// With the rung `anchored`, the VELD of `known` votes as sweeps above and below do. These are
-// sweeps of the same radar that were dealiased before, and are at most 15 minutes older or newer:
-// those of the volume before, or others of a volume that still grows. They unfold isolated echo if
-// they have its neighbors. needs_dealiasing() does not see them.
+// The rung `anchored` also uses the VELD of `known`: sweeps of the same radar that were dealiased
+// before, at most 15 minutes older or newer. The known sweeps are of the volume before, or of the
+// same volume if it still grows. They vote as the sweeps above and below do, and they unfold
+// isolated echo if they show this echo joined to other echo. needs_dealiasing() ignores the known
+// sweeps.
 [[nodiscard]] Dealiased dealias(const level2::Volume& volume, Dealiasing rung,
                                 std::span<const level2::Sweep> known = {});
 

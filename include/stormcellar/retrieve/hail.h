@@ -8,7 +8,7 @@
 //             POSH    29 ln(SHI / WT) + 50, from 0 to 100 %: probability of hail of at least 19 mm
 //             WT      57.5 H - 121, at least 20 J/m/s; H is the height of 0 C above the radar in km
 //             MESH    2.54 SHI^0.5, a size that a quarter of the reported stones exceed
-//             MESH75  15.096 SHI^0.206, the same from 5,897 reports instead of 147
+//             MESH75  15.096 SHI^0.206, as MESH, but from 5,897 reports instead of 147
 //             MESH95  22.157 SHI^0.212, a size that 5 % of the reported stones exceed
 // Layers    Each height of a column is the middle of a layer, which reaches half way to the next
 //           heights; the first and the last layer are symmetric. Reflectivity is constant in a
@@ -19,13 +19,13 @@
 //           (2019), J. Appl. Meteor. Climatol. 58, 947, with the coefficients of its corrigendum
 //           (2021), doi:10.1175/JAMC-D-20-0271.1.
 // Errors    bad_argument for levels or heights that make no sense.
-// Accuracy  hail_test.cpp enforces each line. bench/compare_hail.py compares pyhail and
-// recast-radar.
-//             constant reflectivity   1e-6 of the closed form
-//             storm-like profile      layers of 500 m: MESH within 1 mm of layers of 10 m
-// Not covered  The sizes are statistics of reports, and no measurements: large stones read low.
-//           Wet or tilted storms, other bands than S, attenuation, and cells that no beam met: they
-//           add nothing, so that SHI is too low.
+// Accuracy  Enforced by hail_test.cpp:
+//             constant reflectivity  1e-6 of the closed form
+//             storm-like profile     MESH from layers of 500 m: within 1 mm of layers of 10 m
+//           bench/compare_hail.py compares pyhail and recast-radar.
+// Not covered  The sizes are statistics of reports, not measurements: they are too small for large
+//           stones. Wet or tilted storms, other bands than S, and attenuation. Cells that no beam
+//           met add nothing, so that SHI is too low.
 // Threads   Pure functions.
 #pragma once
 
@@ -47,7 +47,7 @@ struct FreezingLevels {
 // Returns bad_argument unless 0 C is from -1000 to 7000 m, and -20 C is 1000 to 8000 m higher.
 [[nodiscard]] Result<void> validate(const FreezingLevels& levels);
 
-// The size of the error of both levels for which mesh_range() is meant.
+// The usual error of both levels, for mesh_range().
 inline constexpr double usual_level_error_m = 300;
 
 // All numbers are 0 if no layer of at least 40 dBZ reaches above the level of 0 C.
@@ -73,14 +73,14 @@ struct HailLayers {
 // radar reports, count as 100 dBZ.
 [[nodiscard]] double hail_energy_flux(double dbz);
 
-// Computes the hail of a column with a value for each height; NaN where there is no value, which
-// adds nothing, as do missing values at the end.
+// Computes the hail of a column. `dbz` has a value for each height; NaN, and missing values at the
+// end, add nothing.
 [[nodiscard]] Hail hail_of_column(const HailLayers& layers, std::span<const float> dbz);
 
 // Computes the hail that follows from SHI. Zero, negative numbers and NaN give no hail.
 [[nodiscard]] Hail hail_of_shi(double shi_j_per_m_s, double warning_threshold);
 
-// MESH of a column if both levels are really higher or lower by the same error.
+// MESH of a column if both levels are too low or too high by the same error.
 struct MeshRange {
     float least_mm = 0, most_mm = 0;
 };

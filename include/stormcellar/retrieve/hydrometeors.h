@@ -14,14 +14,15 @@
 //           and in the tropics.
 // Numbers   hydrometeor_number() gives those of product 165 of the National Weather Service.
 // Accuracy  Of the gates of synthetic layers with noise, 99 % of rain, dry snow and wet snow get
-//           their class, 93 % of graupel above a core of hail, 88 % of hail and 83 % of heavy rain;
-//           the rest of a core 10 km wide are its edges (tests/retrieve/hydrometeors_test.cpp).
-// Skill     Park et al. show one mesoscale system and give no score. Others report too much hail
-//           and graupel from such rules.
-// Not covered  The confidence that Park et al. give each measurement: all count in full. An error
-//           of ZDR, from calibration or attenuation, changes classes from about 0.3 dB on. Sweeps
-//           without dual polarization get no classes. The size of hail, tornado debris, other bands
-//           than S.
+//           their class, 93 % of graupel above a core of hail, 88 % of hail and 83 % of heavy rain.
+//           The core is 10 km wide, and the gates with a wrong class are at its edges
+//           (tests/retrieve/hydrometeors_test.cpp).
+// Skill     Park et al. show one mesoscale system and give no score. Other authors report too much
+//           hail and graupel from such rules.
+// Not covered  Park et al. give each measurement a confidence; here all measurements count in full.
+//           An error of ZDR, from calibration or attenuation, changes classes from about 0.3 dB on.
+//           Sweeps without dual polarization get no classes. The size of hail, tornado debris,
+//           other bands than S.
 // Source    Park, Ryzhkov, Zrnic and Kim (2009), Wea. Forecasting 24, 730, sections 3 and 4. The
 //           numbers of the tables were compared with those of another program.
 // Threads   Pure functions.
@@ -66,7 +67,7 @@ inline constexpr std::size_t hydrometeor_count = 11;
 [[nodiscard]] constexpr float hydrometeor_number(Hydrometeor kind) {
     return 10 * static_cast<float>(kind);
 }
-// Returns the class of such a number; none for any other number.
+// Returns the class whose hydrometeor_number() this is; none for any other number.
 [[nodiscard]] Hydrometeor hydrometeor_of_number(float number);
 
 // The classes at the gates of one reflectivity moment.

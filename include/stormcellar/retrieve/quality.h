@@ -9,17 +9,20 @@
 //           than 0.8): bench/teach_quality.cpp. There are two rules:
 //             dual    correlation, textures of ZDR and PHI, reflectivity
 //             single  features of reflectivity, velocity and spectrum width alone
-//           A sweep without dual polarization gets the single rule, unless a sweep of the same
-//           angle has it, whose probabilities it takes then, as a Doppler cut does.
+//           A sweep without dual polarization, such as a Doppler cut, takes the probabilities of a
+//           sweep of the same angle that has dual polarization. Without such a sweep, it gets the
+//           single rule.
 // Units     1 (0 to 1). At 0.5 a rule keeps 98.5 % of the weather of at least 20 dBZ in the volumes
-//           that taught it. The numbers order gates; they are no frequencies (docs/quality.md).
-// Accuracy  Of five volumes that did not teach, 0.5 removes 97.8 % (dual) and 96.5 % (single) of
-//           the gates with a correlation below 0.8, and keeps 98.7 % and 98.1 % of those of at
-//           least 20 dBZ with a correlation of at least 0.95 (bench/teach_quality.cpp). The hardest
-//           of them is in tests/retrieve/quality_test.cpp.
-// Not covered  The single rule removes half of the weather below 20 dBZ, the dual rule a third, and
-//           a tenth of dense echo of low correlation, such as hail. Seven radars in the middle of
-//           the United States and on its coasts taught the rules, all in super-resolution.
+//           that taught it. A larger number means that weather is more probable, but the numbers
+//           are not frequencies (docs/quality.md).
+// Accuracy  In five volumes that did not teach the rules, at 0.5 (bench/teach_quality.cpp): gates
+//           with a correlation below 0.8 are removed (dual rule: 97.8 %, single rule: 96.5 %).
+//           Gates of at least 20 dBZ with a correlation of at least 0.95 are kept (dual: 98.7 %,
+//           single: 98.1 %). The hardest volume is in tests/retrieve/quality_test.cpp.
+// Not covered  Of the weather below 20 dBZ, the single rule removes half and the dual rule a third.
+//           The dual rule also removes a tenth of dense echo of low correlation, such as hail.
+//           Seven radars in the middle of the United States and on its coasts taught the rules, all
+//           in super-resolution.
 // Source    Kind of features: Lakshmanan et al. (2014); Krause (2016). The tables are our own.
 // Threads   Pure functions.
 #pragma once
@@ -42,11 +45,11 @@ struct SweepQuality {
     std::vector<float> probabilities;  // radials x gate_stride; NaN where there is no echo
 };
 
-// Computes the probabilities of all reflectivity moments of a volume. `only_single` leaves the
-// dual-polarization moments aside, as if the radar had none.
+// Computes the probabilities of all reflectivity moments of a volume. `only_single` ignores the
+// dual-polarization moments, as if the radar had none.
 [[nodiscard]] std::vector<SweepQuality> weather_probabilities(const level2::Volume& volume,
                                                               bool only_single = false);
-// Computes those of one sweep alone, with the same results.
+// Computes the probabilities of one sweep alone, with the same results.
 [[nodiscard]] std::vector<SweepQuality> weather_probabilities_of(const level2::Volume& volume,
                                                                  std::size_t sweep);
 

@@ -5,25 +5,25 @@
 //           grid cells, echo grows down to `least_dbz`. Where two peaks meet, they stay two cells
 //           if both rise above the pass between them by `prominence_db` and are far enough apart,
 //           so that the cells of a line separate. Peaks above each other are one cell.
-// Tracks    Each earlier cell is moved with its predicted motion. A cell continues the track whose
-//           moved footprint it overlaps, at the least cost of overlap and distance. An unmatched
-//           cell within a moved footprint was split off. A track that ends within another track's
-//           cell was merged into it.
-// Motion    A straight line through the last positions by least squares, joined with the motion of
-//           the echo pattern (guess_motions()), each weighted by its error.
+// Tracks    Each earlier cell is moved with its predicted motion. A cell continues a track if it is
+//           near the predicted place or overlaps the moved footprint; pairs with the shortest
+//           distance and the most overlap come first. An unmatched cell within a moved footprint
+//           was split off. A track that ends within another track's cell was merged into it.
+// Motion    Joins two estimates, each weighted by its error: a straight line through the last
+//           positions by least squares, and the motion of the echo pattern (guess_motions()).
 // Units     Degrees (WGS84), meters above mean sea level, dBZ, kg m^-2, mm, s^-1, m/s to the east
 //           and north.
 // Source    Ideas: SCIT (Johnson et al. 1998, Wea. Forecasting 13, 263), TITAN (Dixon and Wiener
 //           1993), TINT (Raut et al. 2021), tobac (Heikenfeld et al. 2019). VIL: Greene and Clark
 //           (1972). The rules and numbers here are our own.
-// Accuracy  tests/retrieve/storm_cells_test.cpp and track_cells_test.cpp enforce, with six
-// simulated
-//           storms through the gridder: all found, no others, within 2 km of the storm's place at
-//           the start of the volume; after three volumes the motion is within 2 m/s and 10 degrees.
-//           Not covered: real cells have no truth. The growth of the error of forecasts (4 m/s and
-//           axis) is an assumption. Positions count as of the scan's time, although sweeps are up
-//           to a volume's length later. Farther than 60 km from the radar, a melting layer may
-//           look deep and count as a cell.
+// Accuracy  Six simulated storms go through the gridder (tests/retrieve/storm_cells_test.cpp,
+//           track_cells_test.cpp). All are found and nothing else, within 2 km of the storm's place
+//           at the start of the volume. After three volumes the motion is within 2 m/s and 10
+//           degrees.
+// Not covered  Real cells have no truth. The growth of the error of forecasts (4 m/s and axis) is
+//           an assumption. Positions count as of the scan's time, although sweeps are up to a
+//           volume's length later. Farther than 60 km from the radar, a melting layer may look deep
+//           and count as a cell.
 // Errors    See each function. An input without strong echo gives no cells, which is no error.
 // Threads   Pure functions.
 #pragma once
@@ -68,12 +68,13 @@ struct StormCell {
     double area_km2 = 0;      // of all columns of the cell
     float max_dbz = 0, max_dbz_height_m = 0;
     // Height of the highest echo of `top_dbz` over the cell's columns. The error is one distance
-    // between levels. `top_is_at_least` if the air above such echo was not seen in some column.
+    // between levels. `top_is_at_least` is true if the air above this echo was not seen in some
+    // column.
     float top_m = 0;
     bool top_is_at_least = false;
     float vil_kg_per_m2 = 0;       // the largest of its columns (vertical_liquid.h)
     std::optional<float> mesh_mm;  // the largest of its columns; absent without freezing levels
-    // MESH of the column with the largest, if both freezing levels err by usual_level_error_m.
+    // MESH in the column of `mesh_mm`, if both freezing levels err by usual_level_error_m.
     std::optional<MeshRange> mesh_range;
     std::optional<float> azimuthal_shear_per_s;  // the largest in its columns; absent if not given
     std::vector<ColumnRun> columns;              // of the scan's grid, by row, then column
@@ -87,7 +88,7 @@ struct CellScan {
     std::string area;  // station or domain
     grid::GridSpec spec;
     std::vector<StormCell> cells;
-    std::optional<FreezingLevels> freezing = {};  // for which the cells have their MESH
+    std::optional<FreezingLevels> freezing = {};  // from which the MESH of the cells follows
 };
 
 // The grids of one time in which cells are found. All have the same spec.
@@ -95,8 +96,8 @@ struct CellFields {
     grid::BrickView reflectivity;
     std::optional<grid::BrickView> azimuthal_shear;  // of the moment AZSH, in 0.001/s
     std::optional<FreezingLevels> freezing;          // for hail
-    // The height of the radar above sea level, of several radars the mean, for VIL
-    // (vertical_liquid.h); none if it is unknown.
+    // The height of the radar above sea level, for VIL (vertical_liquid.h); the mean for several
+    // radars, none if it is unknown.
     std::optional<double> radar_m = {};
 };
 
@@ -105,9 +106,9 @@ struct CellFields {
 [[nodiscard]] Result<CellScan> find_cells(const CellFields& fields, UtcTime time, std::string area,
                                           const CellOptions& options = {});
 
-// Sets `echo_motion` of the cells of `scan`, which were found in `after`, from the motion of all
-// echo since the grid `before`. Changes nothing if there is too little echo. Errors: bad_argument
-// if the specs differ or `seconds` is not positive.
+// Sets `echo_motion` of the cells of `scan` from the motion of all echo between the grids `before`
+// and `after`. The cells were found in `after`. Changes nothing if there is too little echo.
+// Errors: bad_argument if the specs differ or `seconds` is not positive.
 [[nodiscard]] Status guess_motions(CellScan& scan, const grid::BrickView& before,
                                    const grid::BrickView& after, double seconds);
 
@@ -143,13 +144,13 @@ struct TrackMotion {
 
 struct TrackedCell {
     StormCell cell;
-    // Time and place of the first sight among the scans, as in "20130520_200400_35.32N_97.51W". So
-    // the id stays the same if later scans are added. It is unique within a result.
+    // Time and place of the first sighting among the scans, as in "20130520_200400_35.32N_97.51W".
+    // So the id stays the same if later scans are added. The id is unique within a result.
     std::string id;
     CellOrigin origin = CellOrigin::first;
-    std::vector<std::string> parents;  // split: the one it left; merged: the tracks that ended
+    std::vector<std::string> parents;  // split: the track it left; merged: the ended tracks
     UtcTime time;                      // of the scan
-    std::vector<CellSighting> past;    // of this id, from the first sight to the scan before
+    std::vector<CellSighting> past;    // with this id, from the first sighting to the scan before
     std::optional<TrackMotion> motion;
     std::vector<CellForecast> forecasts;  // for 15, 30, 45 and 60 minutes; empty without a motion
 };
@@ -162,10 +163,10 @@ struct TrackedScan {
 };
 
 struct TrackOptions {
-    double longest_gap_s = 1'260;     // tracks end if no scan shows their cell for so long
-    double position_error_m = 1'000;  // of a cell's position, before residuals show it
+    double longest_gap_s = 1'260;     // a track ends if no scan shows its cell for longer
+    double position_error_m = 1'000;  // of a cell's position, before residuals are known
     double fastest_mps = 40;
-    std::size_t most_positions = 10;  // of the least squares
+    std::size_t most_positions = 10;  // for the fit by least squares
 };
 
 // Follows the cells through scans of one area. Scans may come in any order; the result is in order

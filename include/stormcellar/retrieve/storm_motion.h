@@ -1,15 +1,15 @@
 // stormcellar/retrieve/storm_motion.h -- estimates the motion of storms from the wind profile, and
 // subtracts a motion from radial velocities.
 //
-// Units     m/s; meters above the antenna, which stands for the ground. As text, a motion is
-//           "240/15": the direction that the storm comes FROM, in degrees clockwise from north, and
-//           its speed in m/s, as forecasters write it.
-// Source    Bunkers et al. (2000): a supercell deviates by 7.5 m/s from the mean wind from 0 to
-//           6 km, at right angles to the shear from the mean wind of 0 to 500 m to that of 5.5 to
-//           6 km. The means are over height and not weighted by pressure.
+// Units     m/s; meters above the antenna, which count as meters above the ground. As text, a
+//           motion is "240/15": the direction that the storm comes FROM, in degrees clockwise from
+//           north, and its speed in m/s, as forecasters write it.
+// Source    Bunkers et al. (2000): a supercell deviates by 7.5 m/s from the mean wind from 0 to 6
+//           km, at right angles to the shear. The shear is the mean wind from 5.5 to 6 km minus the
+//           mean wind from 0 to 500 m. The means are over height and not weighted by pressure.
 // Accuracy  Exact for the given winds, which are linear in height between layers
-//           (tests/retrieve/storm_motion_test.cpp). Not covered: storms that move otherwise, and
-//           ground far above or below the radar.
+//           (tests/retrieve/storm_motion_test.cpp). Not covered: storms that do not move as
+//           Bunkers et al. found, and ground far above or below the radar.
 // Errors    See each function.
 // Threads   Pure functions.
 #pragma once
@@ -45,7 +45,8 @@ struct WindAtHeight {
 // winds at 0 to 500 m and 5.5 to 6 km are the same, so that there is no shear.
 [[nodiscard]] Result<StormMotions> bunkers_motions(std::span<const WindAtHeight> winds,
                                                    double most_gap_m = 3'000);
-// Uses the layers that have a wind and not likely birds, at most 1500 m apart. Errors: as above.
+// Uses the layers that have a wind and in which birds are not likely. Neighbors may be at most 1500
+// m apart. Errors: as above.
 [[nodiscard]] Result<StormMotions> bunkers_motions(std::span<const WindLayer> layers);
 
 // Returns the radial velocity of a gate relative to a storm.

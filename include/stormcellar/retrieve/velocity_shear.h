@@ -2,34 +2,34 @@
 // sweeps, their maxima in layers and over time, and a list of the strongest maxima.
 //
 // Method    A plane is fitted by least squares to the unfolded velocities of the gates around each
-//           gate. Its slope along the azimuth is the azimuthal shear, its slope along the range the
-//           radial divergence. The kernel has a constant size in meters, so it has fewer radials
-//           at longer ranges. In sweeps of super-resolution, a median of 3 x 3 gates comes before
-//           the fit, as in MRMS. The slope along the azimuth is fitted per sine of the angle and
-//           then divided by the distance of the gate from the radar, so that a rotation like a
-//           solid body is exact.
+//           gate. Its slope along the azimuth is the azimuthal shear, and its slope along the range
+//           is the radial divergence. The kernel has a constant size in meters, so it has fewer
+//           radials at longer ranges. In sweeps of super-resolution, a median of 3 x 3 gates comes
+//           before the fit, as in MRMS. The slope along the azimuth is fitted against the sine of
+//           the angle, and then divided by the distance of the gate from the radar. So a rotation
+//           like a solid body is exact.
 // Sign      Azimuths are clockwise. Azimuthal shear is positive where the velocity away from the
 //           radar grows clockwise: counterclockwise rotation, which is cyclonic in the northern
 //           hemisphere. It is half the vertical vorticity of a rotation like a solid body. Radial
 //           divergence is positive where the velocity grows with range; it is half the horizontal
 //           divergence if the wind spreads alike in all directions.
-// Units     s^-1, meters, degrees. Distances are horizontal, and each velocity is taken for that of
-//           a horizontal wind: V / cos(elevation). There is no terrain model, so all heights are
+// Units     s^-1, meters, degrees. Distances are horizontal. Each velocity counts as that of a
+//           horizontal wind: V / cos(elevation). There is no terrain model, so all heights are
 //           above the antenna, not above the ground below the beam.
 // Source    Smith and Elmore (2004); Mahalik et al. (2019), Wea. Forecasting 34, 415. The layers,
 //           the median and the size of the kernel follow MRMS (Smith et al. 2016). The standard
 //           error is that of a plane fitted by least squares.
 // Error     The standard error comes from the distances of the unfiltered velocities from the
-//           plane, which also grow where the wind is no plane. It is never less than rounding to
-//           the step of the codes causes.
+//           plane, which also grow where the wind is no plane. It is at least the error that
+//           rounding to the step of the codes causes.
 // Accuracy  tests/retrieve enforces each line in velocity_shear_test.cpp, plane_fit_test.cpp or
 //           shear_layer_test.cpp.
 //             solid rotation, linear divergence  2e-5 of the value and the rounding of the codes
-//             Rankine vortices                   5 % of the vortex as beam, median and kernel
-//                                                smooth it, for ranges of 20 to 100 km, radii of 1
+//             Rankine vortices                   5 % of the vortex after smoothing by beam, median
+//                                                and kernel, for ranges of 20 to 100 km, radii of 1
 //                                                to 4 km and Nyquist velocities of 8 to 33 m/s
-//             standard error, noise alone        5 % of the spread of the values, and twice their
-//                                                spread after a median; 90 % of the values are
+//             standard error, noise alone        5 % of the spread of the values; after a median,
+//                                                twice that spread. 90 % of the values are
 //                                                within two standard errors of 0
 //             Moore, 1999                        the largest low-level shear is within 1.5 km of
 //                                                the tornado
@@ -112,8 +112,8 @@ struct ShearCell {
 [[nodiscard]] int knowledge(grid::CellStatus status);
 
 // A layer about the radar. Cell (azimuth a, arc b) is centered (a + 1/2) azimuth_step_deg from
-// north and (b + 1/2) arc_step_m from the radar, and takes the nearest gate of each sweep whose
-// center is within the layer there.
+// north and (b + 1/2) arc_step_m from the radar, and takes the nearest gate of each sweep, if the
+// center of that gate is within the layer.
 struct ShearLayer {
     static constexpr std::size_t azimuths = 720, arcs = 920;
     static constexpr double azimuth_step_deg = 0.5, arc_step_m = 250;
@@ -161,7 +161,7 @@ struct MaximaOptions {
 };
 
 // Lists the strongest cyclonic maxima of a layer or track, the strongest first. A maximum nearer
-// than the least separation to a stronger one is left out. `radar` is the antenna's position.
+// than the least separation to a stronger maximum is left out. `radar` is the antenna's position.
 [[nodiscard]] std::vector<ShearMaximum> strongest_maxima(const ShearLayer& layer,
                                                          grid::GeoPoint radar,
                                                          const MaximaOptions& options = {});

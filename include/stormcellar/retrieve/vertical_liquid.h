@@ -1,14 +1,13 @@
 // stormcellar/retrieve/vertical_liquid.h -- vertically integrated liquid (VIL) of a column of
 // reflectivity.
 //
-// Method    3.44e-6 Z^(4/7) kg/m3, with Z in mm6/m3, is integrated over height. Z counts up to 56
+// Method    3.44e-6 Z^(4/7) kg/m3, with Z in mm6/m3, is integrated over height. Z is capped at 56
 //           dBZ, so that hail does not count as liquid water. A layer between two cells has the
 //           mean Z of both; no echo is Z = 0. Beside a cell that was not seen or is range folded,
 //           half of the layer counts. The first and the last cell reach to the edges of the column.
-// Below the lowest beam  The lowest cell that was seen counts down to the height of the radar, or
-//           to the bottom of the column if that is higher: rain below the lowest beam is part of
-//           the column. A lowest cell without echo adds nothing. Above the highest beam nothing
-//           counts.
+// Below the lowest beam  It rains below the lowest beam, too. So the lowest cell that was seen is
+//           extended down to the height of the radar, or to the bottom of the column if that is
+//           higher. A lowest cell without echo adds nothing. Above the highest beam nothing counts.
 // Units     kg/m2. Heights are above mean sea level, in meters.
 // Source    Greene and Clark (1972), Mon. Wea. Rev. 100, 548.
 // Errors    A column in which nothing was seen has 0.
@@ -20,8 +19,8 @@
 //           km from a simulated radar (VCP 212): at most 4 % of a ramp and of a storm, 5 % of a
 //           plateau on the ground, 22 % of a plateau from 3 to 9 km, whose edges are between beams.
 //           At 20 km, where the top is above the highest beam, up to 24 % are missing.
-// Not covered  Hail below 56 dBZ, melting snow, attenuation. Far from the radar the part below the
-//           lowest beam is an assumption, and most of the column.
+// Not covered  Hail below 56 dBZ, melting snow, attenuation. Far from the radar most of the column
+//           is below the lowest beam, where its liquid is an assumption.
 // Threads   Pure functions.
 #pragma once
 

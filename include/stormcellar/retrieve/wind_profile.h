@@ -3,10 +3,11 @@
 // Volume velocity processing (VVP): for each layer of height, a least-squares fit of one uniform
 // wind to the unfolded velocities of all sweeps. A gate of azimuth a and elevation e sees
 //     (u sin a + v cos a) cos e + w sin e
-// with three parameters u, v and w, where w is the vertical velocity of the scatterers: the air's
-// and their fall. Gates that differ from the fit by more than three robust standard deviations are
-// rejected and the fit is repeated, until the same gates remain. The first fit, by the least sum of
-// absolute differences, leaves out velocities within 1 m/s of zero, most of which are clutter.
+// with three parameters u, v and w, where w is the vertical velocity of the scatterers: the motion
+// of the air and their fall in it. Gates that differ from the fit by more than three robust
+// standard deviations are rejected, and the fit is repeated until the set of gates no longer
+// changes. The first fit, by the least sum of absolute differences, leaves out velocities within 1
+// m/s of zero, most of which are clutter.
 //
 // Units     m/s; u toward the east, v toward the north, w upward. Heights in meters ABOVE THE
 //           ANTENNA; add antenna_position()->altitude_m for heights above sea level. Angles in
@@ -88,8 +89,8 @@ struct WindLayer {
 struct WindProfileOptions {
     double layer_m = 200;  // 50 to 2000
     double top_m = 12'000;
-    // Slant ranges of the gates used. Near the radar there is ground clutter; far from it the air
-    // is another.
+    // Slant ranges of the gates used. Near the radar there is ground clutter, and far away the wind
+    // may differ.
     double least_range_m = 5'000;
     double most_range_m = 35'000;
 };
