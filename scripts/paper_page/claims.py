@@ -1,4 +1,4 @@
-"""The claims of the published system of 2008, with every number of it that the page shows.
+"""The claims of the published system of 2008, with every number of that system that the page shows.
 
 `how` says how a claim is judged:
   more      by our value divided by the paper's: above 1.05 the claim is beaten, from 0.95 on it is met
