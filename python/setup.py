@@ -1,6 +1,6 @@
-"""Makes the wheel: the package with libstormcellar.so.0 and every library that it needs beyond those of each Linux.
+"""Makes the wheel: the package with libstormcellar.so.0 and every library that it needs beyond those of every Linux.
 
-`pip wheel python/` builds the library in build/wheel. If $STORMCELLAR_LIBRARY names a built one, it is taken instead.
+`pip wheel python/` builds the library in build/wheel. If $STORMCELLAR_LIBRARY names a built library, this one is taken.
 """
 
 import hashlib
@@ -25,7 +25,7 @@ NAME = "libstormcellar.so.0"
 
 FONTS = pathlib.Path("/usr/share/fonts/truetype/dejavu")  # of Debian's package fonts-dejavu-core, for pictures
 
-# Libraries that every Linux with a C++ compiler's runtime has. A wheel that brought its own would clash with them.
+# Libraries that every Linux with a C++ compiler's runtime has. A wheel with its own copies would clash with them.
 OF_THE_SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|gcc_s|stdc\+\+))\.so\.\d+")
 
 # The first glibc that was published after a version of libstdc++, both by their last number (2.N and 3.4.N).
@@ -37,7 +37,7 @@ def run(*command):
 
 
 def built_library():
-    """Returns the path of the library, and builds it if the environment names none."""
+    """Returns the path of the library, and builds it if the environment names no library."""
     named = os.environ.get("STORMCELLAR_LIBRARY")
     if named:
         return pathlib.Path(named).resolve()
@@ -51,7 +51,7 @@ def built_library():
 
 
 def carry(library, package):
-    """Copies the library into the package, and the libraries that it needs into the folder libs of it.
+    """Copies the library into the package, and the libraries that it needs into the package's folder libs.
 
     A copied library has a hash in its name, so that no other module of the process finds or replaces it.
     """
@@ -88,7 +88,7 @@ def carry_fonts(package):
 
 
 def copy_licenses(files, folder):
-    """Copies the copyright files of Debian's packages of the files, whose licenses ask for this."""
+    """Copies the copyright files of the Debian packages that have the files, because their licenses ask for this."""
     if not shutil.which("dpkg"):
         return
     for file in {path.resolve() for path in files}:
@@ -102,7 +102,7 @@ def copy_licenses(files, folder):
 
 
 def glibc_minor(libraries):
-    """Returns N of the oldest glibc, 2.N, on whose systems the libraries run."""
+    """Returns N of glibc 2.N, the oldest glibc of the systems on which the libraries run."""
     symbols = "".join(run("objdump", "-T", path) for path in libraries)
     minors = [int(minor) for minor in re.findall(r"GLIBC_2\.(\d+)", symbols)]
     newest = max([int(minor) for minor in re.findall(r"GLIBCXX_3\.4\.(\d+)", symbols)], default=0)
@@ -124,12 +124,12 @@ class Build(build_py):
 
 class Package(Distribution):
     def has_ext_modules(self):
-        """Says that the package has libraries, so it is installed with those of this processor."""
+        """Returns True, because the package has binary libraries, so its wheel is only for this kind of processor."""
         return True
 
 
 class Wheel(bdist_wheel):
-    """Tags the wheel: any Python 3, and the Linux for which its libraries are."""
+    """Tags the wheel with any Python 3, and with the systems on which its libraries run."""
 
     def get_tag(self):
         minor = getattr(self.distribution, "glibc_minor", None)

@@ -7,7 +7,7 @@
     >>> volume.sweeps[0].moments["REF"].values().shape
     (367, 460)
 
-Volume needs NumPy alone; open_volume(), open_datatree() and open_archive() need xarray. All work is done by the
+Volume needs only NumPy; open_volume(), open_datatree() and open_archive() need xarray. All work is done by the
 library libstormcellar.so.0, which releases the interpreter's lock.
 """
 

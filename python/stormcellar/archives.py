@@ -1,10 +1,10 @@
 """The volumes of a station as one tree over time, decoded from their raw files when their values are used.
 
-A volume's own sweeps decide where each of them belongs. Two sweeps are of one kind if their angles differ by at most
-0.15 degrees, both or neither measure velocity, and their azimuths and gates are spaced alike. The order tells sweeps of
-one kind in a volume (SAILS, MRLE, MPDA) apart. So a low sweep that is repeated keeps its group wherever the radar
-inserts it, and a volume without it, or one that AVSET ended early, has no values there. If the radar restarted a cut,
-the try with the most rays counts.
+The sweeps of a volume decide to which group each of them belongs. Two sweeps are of one kind if their angles differ by
+at most 0.15 degrees, both or neither measure velocity, and their azimuths and gates are spaced alike. Sweeps of one
+kind in a volume (SAILS, MRLE, MPDA) differ by their order. So a low sweep that is repeated keeps its group wherever the
+radar inserts it, and a volume without it, or a volume that AVSET ended early, has no values there. If the radar
+restarted a cut, the try with the most rays counts.
 """
 
 from __future__ import annotations
@@ -46,15 +46,15 @@ def open_archive(catalog: Catalog | str | os.PathLike[str], station: str, start:
     xarray.DataTree, or as a dict of datasets if xarray is older than 2024.10. `catalog` is a Catalog or its directory.
 
     Groups are "/VCP-212/sweep_0" and so on, in the order of the volume of the pattern with the most sweeps; sweeps that
-    only other volumes have come last. Dimensions are (vcp_time, azimuth, range). Each volume is one step of vcp_time,
+    this volume lacks come last. Dimensions are (vcp_time, azimuth, range). Each volume is one step of vcp_time,
     its start. Moments, their states (DBZH_status) and units are those of open_volume(). Azimuths are a regular grid of
     0.5 or 1 degree, and each has the gates of the nearest ray; `time`, `elevation`, `nyquist_velocity` and
     `ray_azimuth` describe that ray. Where a ray or a sweep is missing, values are NaN and states no_data.
 
-    Opening decodes the newest and the oldest volume of each pattern, number of sweeps and number of rays. Others are
-    decoded when their values are used, on all processors, and nothing is written to disk. The last 8 volumes stay in
-    memory. A file that cannot be read, or holds another volume than the catalog says, gives NaN and a warning, as does
-    a sweep that no group fits. Raises Error (not_found) if there is no volume.
+    Opening decodes the newest and the oldest volume of each pattern, number of sweeps and number of rays. Other
+    volumes are decoded when their values are used, on all processors, and nothing is written to disk. The last 8
+    volumes stay in memory. A file that cannot be read, or holds another volume than the catalog says, gives NaN and a
+    warning. So does a sweep that no group fits. Raises Error (not_found) if there is no volume.
 
     >>> archive = stormcellar.open_archive(CATALOG, "KTLX")
     >>> velocity = archive["/VCP-11/sweep_1"]["VRADH"]
@@ -159,7 +159,7 @@ class _Shelf:
         return _Shelf, ()
 
     def of(self, entry):
-        """Returns the lock of a volume, and its decoded sweeps by their places; None where the volume has none."""
+        """Returns the lock of a volume, and its decoded sweeps by their places; None for a missing sweep."""
         with self._lock:
             decoded = self._decoded.setdefault((entry.path, entry.number), (threading.Lock(), {}))
             self._decoded.move_to_end((entry.path, entry.number))
@@ -185,7 +185,7 @@ class _Pattern:
             self._learn(some[: len(some) - 1])  # the oldest may have other gates and moments than the newest
 
     def _learn(self, entries):
-        """Adds the places of the sweeps of the first volume that can be read, of three."""
+        """Adds the places of the sweeps of a volume: the first of three that can be read."""
         for entry in entries[:3]:
             volume = _opened(entry)
             if volume is None:
@@ -204,7 +204,7 @@ class _Pattern:
         return min(alike, key=lambda i: abs(self._kinds[i].angle_deg - kind.angle_deg), default=None)
 
     def _placed(self, volume, may_add=False):
-        """Yields place and sweep of each cut; the place is None if the tree has none."""
+        """Yields place and sweep of each cut; the place is None if the tree lacks it."""
         seen = collections.Counter()
         for sweep in _cuts(volume):
             kind = _kind_of(sweep)
@@ -246,7 +246,7 @@ class _Pattern:
         return indexing.LazilyIndexedArray(_Cells(self, place, read, dtype, (len(self._entries), azimuths, *gates)))
 
     def sweep(self, time, place):
-        """Returns the sweep of a volume at a place and the row of each azimuth (-1: no ray), or None if it has none."""
+        """Returns the sweep of a volume at a place and the row of each azimuth (-1: no ray), or None without a sweep."""
         entry = self._entries[time]
         lock, sweeps = self._shelf.of(entry)
         with lock:

@@ -77,9 +77,9 @@ class Cache:
     def open(self, domain: str, moment: str = "REF", start: Time | None = None,
              end: Time | None = None) -> xarray.Dataset:
         """Returns the grids from `start` to `end` as an xarray.Dataset with the variables MOMENT and MOMENT_status and
-        the dimensions time, z, y, x. A grid is read when its cells are used; only the newest is read at once, for its
-        places. Raises Error if there is no grid, and later if a grid has other cells than the newest: then select times
-        by `start`. Needs xarray.
+        the dimensions time, z, y, x. A grid is read when its cells are used. The newest grid is read at once, because
+        it has the places of the cells. Raises Error if there is no grid, and later if a grid has other cells than the
+        newest: then select times by `start`. Needs xarray.
 
         >>> dataset = stormcellar.Cache(CACHE).open("KTLX")
         >>> dict(dataset["REF"].sizes)

@@ -69,8 +69,8 @@ class Catalog:
 
     def volumes(self, station: str | None = None, start: Time | None = None,
                 end: Time | None = None) -> list[CatalogEntry]:
-        """Returns the volumes of a station, or of all, that begin from `start` to `end`, both included, by station and
-        start. Times are in UTC. Raises Error for a station that the catalog does not have.
+        """Returns the volumes of a station, or of all stations, that begin from `start` to `end`, both included, by
+        station and start. Times are in UTC. Raises Error for a station that the catalog does not have.
 
         >>> [entry.vcp for entry in stormcellar.Catalog(CATALOG).volumes("KTLX", start="1999-05-03")]
         [11]

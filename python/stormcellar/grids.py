@@ -195,8 +195,8 @@ def mosaic(sources: Iterable[Grid | Volume | Source], moment: str = "REF", *, co
     the newest volumes, with the cells of `stormcellar grid FILE FILE`. Without `columns` and `rows`, the grid reaches
     230 km beyond the radars.
 
-    `overlap`: mean, maximum, nearest or distance-weighted (where the moment allows it, the default: a radar at the
-    distance r has the weight exp(-r^2 / length_m^2), by default with 250 km). The other arguments are those of grid().
+    `overlap`: mean, maximum, nearest or distance-weighted, the default where the moment allows it: a radar at the
+    distance r has the weight exp(-r^2 / length_m^2), by default with 250 km. The other arguments are those of grid().
 
     If `sources` are Grids of different radars with the same moment and the same cells, they are merged as they are:
     echo does not move to a common time, and arguments other than `overlap` and `length_m` do not count. Values are then

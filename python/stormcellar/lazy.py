@@ -12,7 +12,7 @@ from .grids import CellState
 
 
 class _Grids:
-    """Reads grids of the same cells. Keeps the last one, because values and states of it are often wanted together."""
+    """Reads grids of the same cells. Keeps the last grid, because its values and states are often wanted together."""
 
     def __init__(self, paths, read):
         self._paths, self._read = paths, read

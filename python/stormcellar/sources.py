@@ -63,10 +63,10 @@ def utc(time) -> np.datetime64:
 
 
 def fetched(station: str, time, bucket: str = BUCKET) -> bytes:
-    """Fetches the last volume that the station began at the time or before it, from a bucket in the layout of the
-    public one, and logs a line of its address. Returns the bytes of the file.
+    """Fetches the last volume that the station began at or before the time, and logs its address. The bucket has the
+    layout of the public bucket. Returns the bytes of the file.
 
-    Raises Error: bad_argument for no name of a station, not_found if no volume began in the 30 minutes before, io if
+    Raises Error: bad_argument if the name is no station's, not_found if no volume began in the 30 minutes before, io if
     the bucket does not answer. Each request is tried four times.
     """
     if not re.fullmatch("[A-Za-z0-9]{4}", station):

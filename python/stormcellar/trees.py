@@ -1,7 +1,7 @@
 """Volumes as xarray datasets, in the layout of xradar 0.12 (FM 301, CfRadial 2).
 
 One thing differs from xradar: a gate without a value is NaN (with packed=True it has a code that decodes to NaN), and
-its state is in a variable of its own, `DBZH_status`; xradar gives echo below the threshold the value of its lowest code.
+its state is in a variable of its own, `DBZH_status`; xradar gives echo below the threshold the value of the lowest code.
 """
 
 from __future__ import annotations

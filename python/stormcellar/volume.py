@@ -173,11 +173,11 @@ class Sweep:
 class Volume:
     """A volume of a Level II file of any year, compressed or not.
 
-    `source` is a path, bytes, an open file, which is read from its position, a list of chunks (sources.joined), or with
-    `time` a station: then the volume that it began last before the time is fetched from the public bucket, or from
+    `source` is a path, bytes, an open file (read from its position), a list of chunks (sources.joined), or a station
+    with `time`. For a station, the last volume that began before the time is fetched from the public bucket, or from
     the address `bucket`, and a line is logged (sources.fetched). `moments` ("REF VEL", or a list) leaves out all
-    others. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot be read; a
-    damaged file gives what is whole, and `problems` says what is lost.
+    other moments. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot be
+    read; a damaged file gives what is whole, and `problems` says what is lost.
 
     `station`, `latitude_deg`, `longitude_deg`, `altitude_m` (of the antenna), `start` (datetime64[ms]), `vcp` (None if
     unknown), `complete`, `problems` (a list of lines), `volumes` (how many the file has) and `sweeps` describe it.
