@@ -61,7 +61,8 @@ class Design {
             columns_ += feature.knots.size() + 1;
         }
     }
-    // Column 0 is the constant; each feature has a column for each knot and one for missing.
+    // Column 0 is the constant; each feature has a column for each knot, and a column for a missing
+    // value.
     [[nodiscard]] std::size_t columns() const { return columns_; }
     [[nodiscard]] std::size_t begin(std::size_t term) const { return begins_[term]; }
 
@@ -167,7 +168,7 @@ std::vector<double> fit_weights(const std::vector<Lesson>& lessons, const Design
     return weights;
 }
 
-// Returns the log-odds below which 1.5 % of the strong weather lies, each volume weighing the same.
+// Returns the log-odds below which 1.5 % of the strong weather lies. Every volume weighs the same.
 double strong_percentile(const std::vector<Lesson>& lessons, const Design& design,
                          const std::vector<double>& weights) {
     std::vector<double> strong;

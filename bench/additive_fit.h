@@ -30,7 +30,7 @@ struct FittedRule {
     std::vector<FittedTerm> terms;
 };
 
-// Fits a rule by logistic regression with a ridge. Weather and other echo weigh the same in all.
+// Fits a rule by logistic regression with a ridge. Weather and other echo weigh the same in total.
 // The constant is moved so that 1.5 % of the strong weather of the lessons gets less than 0.5.
 [[nodiscard]] FittedRule fit_rule(std::vector<Lesson> lessons, retrieve::QualityRule rule);
 

@@ -3,7 +3,7 @@
 // usage: bench_hail [--data DIR] [--runs N] [--json] [FILE ...]   (bench/request.h)
 //        bench_hail --profiles < FILE
 // Each volume is gridded as usual (grid::default_spec), on one thread. The levels of 0 and -20 C
-// are the usual ones (retrieve/hail.h). Prints a row for each file:
+// are at the usual heights (retrieve/hail.h). Prints a row for each file:
 //   file         name of the file
 //   columns      number of columns with hail
 //   mesh_mm      largest MESH, and its range if the levels err by 300 m (least_mm, most_mm)

@@ -39,7 +39,7 @@ double seconds_from(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Starts the feed. `drop` is a name below `root`, the daemon's root if a daemon runs.
+// Starts the feed. `drop` is a name below `root`. If a daemon runs, `root` is the daemon's root.
 Result<ChildProcess> start_feed(const fs::path& root, const ChunkBucket& bucket,
                                 const std::vector<std::string>& stations) {
     std::error_code failed;

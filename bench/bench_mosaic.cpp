@@ -7,9 +7,9 @@
 // 256 x 256 x 128 cells over the common box of the sites. bench/mosaic_feed.h describes the files,
 // bench/mosaic_run.h the timed work. Files are made once, untimed, in the directory of --work (by
 // default stormcellar-bench-mosaic in the system's directory for temporary files; 0.7 GB for 100
-// sites), and later runs use them again. The 60 merged volumes, one for each 5 minutes, go into a
-// cache in this directory, which is removed at the end. Each row is measured in a process of its
-// own:
+// sites), and later runs use the files again. The 60 merged volumes, one for each 5 minutes, go
+// into a cache in this directory, which is removed at the end. Each row is measured in a process of
+// its own:
 //   sites      number of sites: 1, 10, 30, 50 or 100
 //   threads    number of threads of all timed work
 //   total_s    time from raw files to merged volumes
@@ -37,7 +37,7 @@
 // process. All raw files are then made, 3.5 GB for 100 sites and five hours. A task grids a
 // station's day, or merges the frames of an hour; --threads N tasks run at a time. Slurm must be
 // running; scripts/bench-batch starts it. Both ways alternate, and each row is one run:
-//   engine, sites, tasks, frames  the engine of the batch, and the numbers of the other three
+//   engine, sites, tasks, frames  the engine of the batch, and three numbers
 //   batch_s      time from `batch submit` to the end of the last task
 //   mosaic_s     time of one process for the same files; ratio is batch_s / mosaic_s
 //   task_cpu_s, mosaic_cpu_s  CPU times inside tasks, and of one process; cpu_ratio: their ratio

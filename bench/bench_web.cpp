@@ -20,8 +20,8 @@
 // p99_ms the longest.
 //
 // --tiles: instead, one client requests tiles one by one, --requests of each zoom, from the center
-// of the domain outward. It requests them from `stormcellar serve` with a file, and then with the
-// cache DIR of the domain US (bench_mosaic --us --cache):
+// of the domain outward. The client requests the tiles from `stormcellar serve` with a file, and
+// then with the cache DIR of the domain US (bench_mosaic --us --cache):
 //   what            domain, layer and zoom
 //   first_ms        time of the layer's first tile, which makes the product and its overviews
 //   new_p50_ms, new_max_ms  median and longest time of tiles that were not requested before
@@ -158,8 +158,8 @@ std::size_t number_of(const Request& request, std::string_view option, std::size
     return text ? static_cast<std::size_t>(std::max(1, std::atoi(text->c_str()))) : usual;
 }
 
-// Waits until the server has made all grids of its files. It listens sooner, and gridding would
-// take the processor from the requests that are measured.
+// Waits until the server has made all grids of its files. The server listens before that, and
+// gridding would take the processor from the requests that are measured.
 Status wait_for_grids(Result<WebServer>& server) {
     if (!server) return pass_on(server);
     if (server->process.wait_until_idle(std::chrono::minutes{10})) return {};

@@ -15,7 +15,7 @@ wanted. All run in this process or in bench_dealias, one after the other.
    region and phase methods and UNRAVEL. The truth is every gate on which region and UNRAVEL agree.
    A turn that is common to all gates of a phase result is taken out.
 3. Edges that are left (--edges, else every volume): pairs of adjacent gates that still differ by
-   more than the Nyquist velocity, at the real Nyquist velocity, and the seconds. A dash stands for a
+   more than the Nyquist velocity, at the real Nyquist velocity, and the seconds. A dash marks a
    file that the other program does not read.
 
 Exits with status 1 if `anchored` has more wrong gates or edges than another method.

@@ -13,12 +13,12 @@ A table has SHI, POSH and MESH of each column from all programs, and the largest
 with status 1 if MESH differs by more than 1 mm or POSH by more than 1 %.
 
 How the peers integrate: both take the value of each gate for a layer that reaches half way to the
-next gates, and the weight of temperature at its center. stormcellar integrates this weight over the
-layer. Levels or beams more than 1 km apart make a difference of several mm.
+next gates, and the weight of temperature at the center of this layer. stormcellar integrates this
+weight over the layer. Levels or beams more than 1 km apart make a difference of several mm.
 
 Two differences are known, and are printed but not counted:
   - pyhail does not hold the warning threshold at its least value, 20 J/m/s, as recast-radar does.
-    If 0 C is below 2.45 km, POSH of pyhail is another or 0.
+    If 0 C is below 2.45 km, POSH of pyhail differs or is 0.
   - recast-radar gives no value for a SHI below 1 J/m/s (MESH below 2.5 mm).
 """
 import argparse

@@ -6,8 +6,8 @@ usage: bench/compare_nowcast.py [--program build/release/cli/stormcellar] [--dat
 
 Needs numpy, netCDF4 and pysteps 1.21 with opencv (pip).
 
-Each volume but the first and the last is taken as the latest. `stormcellar nowcast` makes a grid
-from it and from earlier volumes for the time of each later volume, which is held out. pysteps gets
+Each volume but the first and the last is treated as the latest. `stormcellar nowcast` makes a grid
+from this volume and from earlier volumes for the time of each later volume, which is held out. pysteps gets
 the same maps, which are the maxima of the columns of our grids: its dense Lucas-Kanade motion of the
 last maps (--images), and its semi-Lagrangian extrapolation. Beyond the last volume there is no truth,
 so a lead without a row is not measured.

@@ -11,8 +11,8 @@ both programs read its file. There are four kinds of columns, each at six distan
   ramp       45 dBZ up to 3 km, above that 3 dB/km less, up to 12 km
   core       55 dBZ up to 5 km, above that a parabola in dB, with 10 dBZ at 14 km
 The truth is the integral of 3.44e-6 Z^(4/7) (Greene and Clark 1972) from the height of the radar up.
-The number of stormcellar is that of the map of `frame --product vil` in the column of the axis, the
-number of recast-radar that of the gate of its lowest sweep there.
+The number of stormcellar is from the map of `frame --product vil`, in the column of the axis. The
+number of recast-radar is from the gate of its lowest sweep at the same place.
 
 At 20 km the highest beam is at 7 km, so neither program sees the tops. Plateaus have edges between
 two beams, so their error is up to half of the distance of the beams. recast-radar continues the

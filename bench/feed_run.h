@@ -5,7 +5,7 @@
 // Sustained  The bytes sent, divided by the bytes that the national feed sends in the same wall
 //            time. The time is from the first chunk until the daemon has nothing left to read. If
 //            more than `most_unfinished` sent volumes have no grid, the feed pauses and later
-//            catches up; after a pause of `most_drain_s` it ends.
+//            catches up; after a pause of `most_drain_s` the feed ends.
 // A file is deleted when its own volume and a later volume of its station have grids.
 //
 // Threads    One thread at a time; run() starts another thread, which watches the cache.
@@ -71,7 +71,7 @@ class FeedRun {
   public:
     FeedRun(const NationalFeed& feed, DaemonProcess& daemon) : feed_(feed), daemon_(daemon) {}
     // Writes the chunks that every site sent before the feed's clock began, and starts the daemon.
-    // When the daemon has read them, calls `begin` and starts the clock.
+    // When the daemon has read the chunks, calls `begin` and starts the clock.
     [[nodiscard]] Result<Stretch> run(
         const StretchOptions& options, const std::string& configuration,
         const std::function<Status()>& begin = [] { return Status{}; });

@@ -37,8 +37,8 @@ void keep_least_seconds(double& least, Work work) {
     least = std::min(least, seconds_of(work));
 }
 
-// Returns the processor time of the quickest of several runs, in milliseconds, which other programs
-// on the machine change less than the time by the clock.
+// Returns the least processor time of several runs, in milliseconds. Other programs on the machine
+// change processor time less than time by the clock.
 template <class Work>
 double least_cpu_ms(int runs, const Work& work) {
     double least = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ struct RecordFile {
 // Reads a file. Returns none, after a message on stderr, if that fails.
 [[nodiscard]] std::optional<RecordFile> read_records(const std::filesystem::path& path);
 
-// Decompresses all records with libbz2 alone, one stream each, part by part into one buffer.
+// Decompresses the streams one by one with libbz2 alone, part by part into one buffer.
 void decompress_all(std::span<const std::span<const std::byte>> records);
 // Decompresses all records with this project's bunzip, as level2 does.
 void bunzip_all(std::span<const std::span<const std::byte>> records);

@@ -19,8 +19,8 @@
 namespace stormcellar::bench {
 
 // Adds a row for each number of threads (bench_mosaic.cpp has the columns). `work` keeps the
-// partials. If `cache` is given, the mosaic is committed to it as the domain US, so that it can be
-// drawn.
+// partials. If `cache` is given, the mosaic is committed to it as the domain US, so that the mosaic
+// can be drawn.
 [[nodiscard]] Status measure_nation(const Request& request, const std::filesystem::path& work,
                                     const std::optional<std::filesystem::path>& cache,
                                     Table& table);

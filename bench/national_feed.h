@@ -3,16 +3,17 @@
 //
 // Sites     The first 160 WSR-88Ds by ICAO. With fewer sites, each site still sends the same
 //           amount.
-// Volumes   Each site sends one of three real volumes again and again. Six of eight sites send a
-//           storm with 94 chunks and 11.6 MB (KLOT, 2021, with MRLE), one site sends KLBB 2016 (46
-//           chunks, 4.0 MB), and one sends KLOT 2026 in clear air (55 chunks, 3.1 MB). Every volume
-//           takes `period_s`, which is chosen to give the rate. The starts of the sites are spread
-//           evenly over this period.
+// Volumes   Each site sends one of three real volumes again and again. Of every eight sites, six
+//           send a storm with 94 chunks and 11.6 MB (KLOT, 2021, with MRLE), one sends KLBB 2016
+//           (46 chunks, 4.0 MB), and one sends KLOT 2026 in clear air (55 chunks, 3.1 MB). Every
+//           volume takes `period_s`, which is chosen to give the rate. The starts of the sites are
+//           spread evenly over this period.
 // On disk   A file for each site and hour: the records of the real volume with the site's name,
 //           position and times, compressed again (bench/restamp.h). Within the hour, volumes of a
 //           site differ only in the time in their headers. So times of radials are up to 40 minutes
 //           off, and all volumes have the same gates. The daemon takes as long to read, decompress,
-//           decode, grid and store such volumes as for real files. synth/replay.h plays the files.
+//           decode, grid and store such volumes as it takes for real files. synth/replay.h plays
+//           the files.
 // Threads   Plain data; make() starts its own threads.
 #pragma once
 

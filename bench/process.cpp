@@ -107,8 +107,8 @@ double ChildProcess::cpu_s() const {
     std::ifstream file(fmt::format("/proc/{}/stat", child_));
     std::string line;
     std::getline(file, line);
-    // Skip the program's name, which is in parentheses and may contain spaces. After it, utime and
-    // stime are the 12th and 13th words (proc(5)).
+    // Skip the program's name, which is in parentheses and may contain spaces. After the name,
+    // utime and stime are the 12th and 13th words (proc(5)).
     std::istringstream words(line.substr(std::min(line.rfind(')') + 1, line.size())));
     std::string word;
     for (int i = 0; i < 11; ++i)

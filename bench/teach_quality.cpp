@@ -1,23 +1,23 @@
 // teach_quality: scores the rules that tell weather from other echo
-// (stormcellar/retrieve/quality.h) and prints new ones.
+// (stormcellar/retrieve/quality.h) and prints new rules.
 //
 // usage: teach_quality [--data DIR] [--teach] [--json]
 // The truth is the correlation coefficient: at least 0.95 is weather, less than 0.8 is other echo,
 // and gates between count for neither. Two thirds of the dual-polarization volumes of the data
-// directory teach, the others test. Prints a row for each rule and test volume, and for each rule
-// a row of all test volumes:
+// directory teach, and the other third tests. Prints a row for each rule and test volume, and for
+// each rule a row of all test volumes:
 //   rule          dual or single
 //   volume        its name, or all
 //   other         gates with a correlation below 0.8
 //   removed_pct   share of these with a probability below 0.5 (95 is asked for)
 //   strong        gates of at least 20 dBZ and a correlation of at least 0.95
-//   kept_pct      share of these with at least 0.5 (98 is asked for)
+//   kept_pct      share of these with a probability of at least 0.5 (98 is asked for)
 //   weak_pct      the same share of the weather below 20 dBZ
-//   between_pct   the same share of gates with a correlation between
-//   dense_pct     the same share of those of at least 35 dBZ, such as hail and melting snow
+//   between_pct   the same share of gates with a correlation from 0.8 to 0.95
+//   dense_pct     the same share of these gates with at least 35 dBZ, such as hail and melting snow
 //   ms            CPU time of the rule for the volume
-// and then, for ranges of the probability, the share of the gates (other and weather alone) that
-// are weather. With --teach, prints instead the text of retrieve/quality/taught_rules.cpp.
+// and then, for ranges of the probability, the share of the gates (only other echo and weather)
+// that are weather. With --teach, prints instead the text of retrieve/quality/taught_rules.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

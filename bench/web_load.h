@@ -1,6 +1,7 @@
-// bench/web_load.h -- starts HTTP servers as children, and loads them.
+// bench/web_load.h -- starts HTTP servers as children, and puts a load on the servers.
 //
-// The load generator is wrk. It runs on a different processor from the server, if there are two.
+// The load generator is wrk. If there are two processors, wrk and the server run on different
+// processors.
 //
 // Threads   One thread at a time.
 // Errors    not_found if wrk, nginx or stormcellar cannot be run; io.
