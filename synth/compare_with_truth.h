@@ -1,7 +1,7 @@
 // synth/compare_with_truth.h -- measures how far grids are from the truth of a simulated scene.
 //
 // The difference is sampling error: echo that the radar did not see, and changes of the storm
-// during the volume. The truth is that at the center of each cell, in the middle of the volume's
+// during the volume. The truth is taken at the center of each cell, in the middle of the volume's
 // time. A cell counts if it has a value and the truth there is above the weakest echo (-20 dBZ).
 //
 // Threads   One thread at a time. It starts as many threads as the scene asks for.

@@ -53,7 +53,7 @@ class Antenna {
           scene_s_(std::chrono::duration<double>(start_ - scene.schedule.start).count()),
           beam_(scene.site.latitude_deg, scene.site.antenna_altitude_m) {}
 
-    // Returns a sweep. It has no radials if all of them are lost.
+    // Returns a sweep. The sweep has no radials if all radials are lost.
     level2::Sweep run(const Cut& cut, int elevation_number) {
         const std::vector<Pointing> pointings = turn(cut, elevation_number);
         level2::Sweep sweep;

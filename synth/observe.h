@@ -4,16 +4,16 @@
 // center, at the time of its radial, along a beam over an earth of 4/3 radius
 // (stormcellar/grid/beam_geometry.h). Reflectivity below the radar's detection limit
 // (grid/beam/detection_limit.h, with the calibration of the radials) is code 0. Velocity is the
-// radial part of the scene's wind, or of the motion of the features if the scene has no wind. It is
-// positive away from the radar, not aliased, and clamped at +-63 m/s. The spectrum width is 2 m/s
-// wherever there is a velocity. Gates extend as far as in real volumes: up to a height of 21.3 km
-// (70,000 ft), and out to 460 km for reflectivity and 300 km for the other moments. The first
-// center is at 2,125 m, and gates are 250 m apart.
+// radial part of the scene's wind, or of the motion of the features if the scene has no wind.
+// Velocity is positive away from the radar, not aliased, and clamped at +-63 m/s. The spectrum
+// width is 2 m/s wherever there is a velocity. Gates extend as far as in real volumes: up to a
+// height of 21.3 km (70,000 ft), and out to 460 km for reflectivity and 300 km for the other
+// moments. The first center is at 2,125 m, and gates are 250 m apart.
 //
 // The effects come in this order: the mean over the beam and the pulse; clutter; range folding
 // (code 1 in VEL and SW, in Doppler and batch cuts); noise; velocity folding; the detection limit;
 // speckle; missing gates. Sweeps lack their lost radials, and volumes lack sweeps without radials.
-// Their numbers then have gaps, as in real volumes.
+// The numbers of radials and sweeps then have gaps, as in real volumes.
 //
 // Accuracy  REF is within half a code, 0.25 dB, of the truth; VEL within 0.25 m/s.
 // Threads   A pure function of its arguments, with the same bits every time.

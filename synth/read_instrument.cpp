@@ -7,7 +7,7 @@
 namespace stormcellar::synth {
 namespace {
 
-// If jitters were larger, a radial could overtake the previous one.
+// If jitters were larger, a radial could overtake the previous radial.
 constexpr TomlRange jitters_deg{0, 0.25};
 
 bool read_switch(TomlTable& table, std::string_view key) {

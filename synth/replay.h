@@ -12,9 +12,9 @@
 //            with the number of the chunk in the name. It is written under this name from the
 //            beginning, and closed, as by pqact. Station and time come from the header (or from the
 //            file name, if the header has no station). The volume's number comes from the header;
-//            if an earlier volume has that number, the next free one is used. The first chunk is S.
-//            The last is E if its control word is negative, as at the end of a volume. All others
-//            are I.
+//            if an earlier volume has that number, the next free number is used. The first chunk is
+//            S. The last is E if its control word is negative, as at the end of a volume. All other
+//            chunks are I.
 // synth/replay_pieces.h defines the pieces, and synth/replay_faults.h the faults. Gzipped files are
 // unpacked only for chunks.
 //
@@ -59,10 +59,11 @@ struct ReplayItem {
     bool has_records = false;        // LDM records, maybe inside gzip
 };
 
-// Finds the files to play, in the order of replay. A file keeps its name. An archive (tar, zip)
-// stands for its members, which keep their names. A directory stands for all regular files in it,
-// with their relative names. Dot-files are left out, because they may still be written. Errors:
-// not_found if there is nothing at all; bad_argument if two files would get the same name.
+// Finds the files to play, in the order of replay. A file keeps its name. If a name is an archive
+// (tar, zip), its members are played, and keep their names. If a name is a directory, all regular
+// files in it are played, with their relative names. Dot-files are left out, because they may still
+// be written. Errors: not_found if there is nothing at all; bad_argument if two files would get the
+// same name.
 [[nodiscard]] Result<std::vector<ReplayItem>> find_replay_items(
     const std::vector<std::filesystem::path>& sources);
 
@@ -83,8 +84,8 @@ struct ReplayOptions {
     std::function<void(std::size_t done)> replayed;  // called after each file
     // Called after each file, with its item.
     std::function<void(const ReplayItem& item)> ended;
-    // Called with the bytes of a file before they are written. It may change the bytes, but not
-    // where the pieces end.
+    // Called with the bytes of a file before the bytes are written. The function may change the
+    // bytes, but not where the pieces end.
     std::function<void(const ReplayItem& item, std::span<std::byte> bytes)> stamp;
     // Pieces that are due in the first `past_s` seconds are written at once, as if the replay had
     // begun that long ago. Then `begun` is called, and the clock continues from `past_s`.

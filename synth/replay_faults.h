@@ -3,10 +3,11 @@
 // A fault affects one element of a row. If files come piece by piece, each file is a row and its
 // pieces are the elements. Otherwise, all files together are one row, and each is an element.
 //   drop      The element never comes. If its file grows, its bytes are missing in the middle.
-//   repeat    It comes twice in succession: a piece is appended again, or a file is written again
-//             with the same bytes.
-//   reorder   It comes after the next element of its row.
-//   truncate  Its last bytes are missing: a random number of them, at least one and not all.
+//   repeat    The element comes twice in succession: a piece is appended again, or a file is
+//             written again with the same bytes.
+//   reorder   The element comes after the next element of its row.
+//   truncate  The element's last bytes are missing: a random number of them, at least one and not
+//             all.
 // An element has at most one fault. An element right after a reordered element has no fault. The
 // last element of a row is not reordered, and an element of less than two bytes is not truncated.
 // Random numbers depend only on the seed and on the place in the row, so the same sources get the

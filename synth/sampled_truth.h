@@ -1,4 +1,4 @@
-// synth/sampled_truth.h -- samples the truth of a scene at a UTC.
+// synth/sampled_truth.h -- samples the truth of a scene at a time in UTC.
 //
 // It returns the echo at places on the earth or at places seen from the scene's radar, and the
 // radial velocity as seen from any site.
@@ -9,8 +9,8 @@
 //           north of a motion are directions in that plane. Radial velocity is the component of the
 //           wind away from the site, or of the motion of the features if there is no wind, times
 //           the cosine of the elevation at the antenna, as in synth/observe.h. From any other site,
-//           directions are also those of the plane. Across the radius, its scale errs by (arc /
-//           earth radius)^2 / 6, which is 0.02 % at 230 km.
+//           directions are also those of the plane. Across the radius, the scale of the plane errs
+//           by (arc / earth radius)^2 / 6, which is 0.02 % at 230 km.
 // Accuracy  Places are within 1e-6 m up to 500 km away; echo is as in synth/truth.h. Enforced by
 //           tests/synth/sampled_truth_test.cpp.
 // Threads   Immutable; the scene must outlive it.

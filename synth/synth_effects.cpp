@@ -31,7 +31,7 @@ double velocity_deviation_mps(double dbz, double noise_level_dbz, double velocit
 double wrapped_mps(double velocity_mps, double nyquist_mps) {
     const double turns = std::floor((velocity_mps + nyquist_mps) / (2 * nyquist_mps));
     const double wrapped = velocity_mps - turns * 2 * nyquist_mps;
-    // Rounding has moved it to the end of the interval.
+    // Rounding may have moved the velocity to the end of the interval.
     return wrapped < nyquist_mps ? wrapped : -nyquist_mps;
 }
 

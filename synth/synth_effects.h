@@ -34,7 +34,7 @@ struct GateEcho {
 
 // Returns the deviation of a velocity: velocity_noise_mps (1 + N/S). In the formulas of real
 // estimators (same source), N/S and its square have coefficients that depend on the width of the
-// spectrum. Here these are one.
+// spectrum. Here these coefficients are 1.
 [[nodiscard]] double velocity_deviation_mps(double dbz, double noise_level_dbz,
                                             double velocity_noise_mps);
 
@@ -47,17 +47,18 @@ struct GateEcho {
 
 // Returns which gates of a radial are folded because echo of several trips overlaps. Gates are
 // equally spaced; `power` is Z over the square of the range. A gate is folded if its own power is
-// less than `threshold_db` above the sum of the powers that arrive with it. Those come from all
-// gates that are a whole multiple of the unambiguous range away, rounded to the nearest gate. Echo
-// beyond the last gate does not come back.
+// less than `threshold_db` above the sum of the powers that arrive with it. These powers come from
+// all gates that are a whole multiple of the unambiguous range away, rounded to the nearest gate.
+// Echo beyond the last gate does not come back.
 [[nodiscard]] std::vector<bool> overlaid_gates(std::span<const double> power, double gates_a_trip,
                                                double threshold_db);
 
 // Ground clutter in a beam:
 //   peak - (peak - 10) range / range_m - 80 log10(2) (elevation / beam width)^2 + texture_db g
-// The term with the elevation is the two-way Gaussian pattern of a beam above the horizon. It is 0
-// for beams below the horizon. g has mean 0 and deviation 1 and belongs to the ground: it changes
-// every half degree and 250 m, but is the same in every cut and volume. Clutter ends below -20 dBZ.
+// The term with the elevation is the two-way Gaussian pattern of a beam above the horizon. This
+// term is 0 for beams below the horizon. g has mean 0 and deviation 1 and belongs to the ground: it
+// changes every half degree and 250 m, but is the same in every cut and volume. Clutter ends below
+// -20 dBZ.
 struct ClutterBeam {
     double azimuth_deg = 0;  // [0, 360)
     double elevation_deg = 0;
@@ -73,9 +74,9 @@ inline constexpr double clutter_width_mps = 0.3;  // of its spectrum, around 0 m
 // of the sum of the two spectra.
 [[nodiscard]] GateEcho sum_of(const GateEcho& a, const GateEcho& b);
 
-// The antenna's deviation at a time after the start of its cut, in [-1, 1]. It is the mean of three
-// sines with periods of 7.3, 3.1 and 1.7 seconds, whose phases differ from cut to cut and from
-// volume to volume.
+// The antenna's deviation at a time after the start of its cut, in [-1, 1]. The deviation is the
+// mean of three sines with periods of 7.3, 3.1 and 1.7 seconds, whose phases differ from cut to cut
+// and from volume to volume.
 struct Jitter {
     double azimuth = 0;
     double elevation = 0;
@@ -95,8 +96,9 @@ struct RadialPlace {
 // Returns true if the gate at `place` is lost.
 [[nodiscard]] bool is_missing_gate(const Instrument& instrument, const DrawPlace& place);
 
-// Returns the speckle of a gate without echo, if the gate has any. It is 0 to 10 dB above the limit
-// of detection, with a velocity anywhere between -nyquist and nyquist, and the width of noise.
+// Returns the speckle of a gate without echo, if the gate has any. The speckle is 0 to 10 dB above
+// the limit of detection, with a velocity anywhere between -nyquist and nyquist, and the width of
+// noise.
 [[nodiscard]] std::optional<GateEcho> speckle_at(const Instrument& instrument,
                                                  const DrawPlace& place, double limit_dbz,
                                                  double nyquist_mps);

@@ -43,11 +43,11 @@ struct Scene {
     Instrument instrument;
 };
 
-// Returns the place of a radar in the plane of weather that has its origin at this position. With
-// it, two scenes with the same origin describe two radars that see the same weather.
+// Returns the place of a radar in the plane of weather that has its origin at this position. So two
+// scenes with the same origin describe two radars that see the same weather.
 [[nodiscard]] Stand stand_of(const Site& site, double latitude_deg, double longitude_deg);
 
-// Parses a scene. `name` stands for the file in messages.
+// Parses a scene. `name` is the file's name in messages.
 [[nodiscard]] Result<Scene> parse_scene(std::string_view toml, const std::string& name);
 [[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
 

@@ -150,7 +150,8 @@ double box_dbz(const Box& box, const Point& point, double t_s) {
     return flat_dbz + box.wave.most_db * std::sin(2 * std::numbers::pi * way_m / box.wave.length_m);
 }
 
-// Adds up the reflectivities of features in mm^6/m^3, and their motions weighted by these.
+// Adds up the reflectivities of features in mm^6/m^3, and the motions of the features, weighted by
+// their reflectivities.
 class Sum {
   public:
     void add(double dbz, const Motion& motion) {

@@ -119,8 +119,8 @@ struct Weather {
 };
 
 // Returns the same weather in the plane about the radar at `stand`, as if both planes were one. The
-// error is the difference of their scales across the radius, (arc / earth radius)^2 / 6. It is 50 m
-// if the radars are 200 km apart.
+// error is the difference of their scales across the radius, (arc / earth radius)^2 / 6. The error
+// is 50 m if the radars are 200 km apart.
 [[nodiscard]] Weather seen_from(const Weather& weather, const Stand& stand);
 
 // Returns the reflectivity; minus infinity if there is nothing.
@@ -128,7 +128,7 @@ struct Weather {
 
 // The reflectivity at a point, and the motion of the air there. The motion is the wind, or, if the
 // weather has none, the mean motion of the features, weighted by their reflectivities in mm^6/m^3.
-// It is zero without echo.
+// The motion is zero without echo.
 struct Echo {
     double dbz = 0;
     Motion motion;

@@ -55,8 +55,8 @@ struct Pattern {
 [[nodiscard]] float unambiguous_range_m(const Cut& cut);
 [[nodiscard]] bool has_velocity(const Cut& cut);
 
-// The antenna moves for this long between two cuts. The time from the first radial of a cut to that
-// of the next cut is the time of the turn plus this.
+// The antenna moves for this long between two cuts. So the first radial of a cut follows the first
+// radial of the previous cut after the time of the turn plus this time.
 inline constexpr double move_s = 1.2;
 [[nodiscard]] double duration_s(const Cut& cut);
 [[nodiscard]] double duration_s(const Pattern& pattern);

@@ -1,7 +1,7 @@
 // synth/velocity_truth.h -- computes the true radial velocity of every gate of a simulated sweep.
 //
 // The truth is neither folded nor noisy. The tests of everything that is computed from velocities
-// compare with it.
+// compare with this truth.
 //
 // Units     m/s, positive away from the radar; fold numbers.
 // Accuracy  Without noise, shown + 2 n nyquist is within half a code, 0.25 m/s, of the truth of its

@@ -9,9 +9,9 @@
 //            the wind away from the center is radial f(r). f = r / radius up to the radius of the
 //            greatest wind, and f = (radius / r)^decay beyond. Within the radius, the vorticity is
 //            2 tangential / radius, and the divergence is 2 radial / radius. A decay of 1 is the
-//            Rankine vortex, which has neither beyond the radius. Hurricanes have decays of 0.4 to
-//            0.6. If tangential is 0, the vortex is a center of divergence; if neither is 0, it is
-//            a hurricane with inflow.
+//            Rankine vortex, which has neither vorticity nor divergence beyond the radius.
+//            Hurricanes have decays of 0.4 to 0.6. If tangential is 0, the vortex is a center of
+//            divergence; if tangential and radial are not 0, the vortex is a hurricane with inflow.
 //
 // Units     As in synth/plane.h; time in seconds since the start of the scene.
 // Source    The combined vortex of Rankine as in Donaldson (1970); decay as in Hughes (1952).

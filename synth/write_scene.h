@@ -22,14 +22,15 @@ struct WriteSceneOptions {
 };
 
 struct WrittenScene {
-    std::vector<std::filesystem::path> files;  // in order of time; all of them, unless stopped
+    std::vector<std::filesystem::path> files;  // in order of time; all files, unless stopped
     std::uint64_t bytes = 0;
     bool stopped = false;
 };
 
 // Writes every volume into `directory`, which is made if it does not exist. Files with the same
 // name are replaced, and each file appears whole or not at all. The bytes are always the same, for
-// any number of threads. The first error ends the work; files written before it stay.
+// any number of threads. The first error ends the work; files that were written before the error
+// stay.
 [[nodiscard]] Result<WrittenScene> write_scene(const Scene& scene,
                                                const std::filesystem::path& directory,
                                                FileSystem& file_system,
