@@ -1,6 +1,6 @@
 // fetch/bucket/transfers.h -- makes HTTP GETs with libcurl, several at a time.
 //
-// The module stormcellar_fetch and the program stormcellar-feed use this; both link libcurl.
+// The module stormcellar_fetch and the program stormcellar-feed use this class; both link libcurl.
 //
 // Threads   One thread at a time.
 #pragma once
@@ -31,8 +31,8 @@ struct Transfer {
     // The tag (ETag) of the object. It is sent if only a part is requested. The server answers 412
     // if the object has changed.
     std::string tag;
-    // Takes the next bytes of the body. If it returns false, the transfer fails and is not tried
-    // again.
+    // Takes the next bytes of the body. If `take` returns false, the transfer fails and is not
+    // tried again.
     std::function<bool(const std::byte* bytes, std::size_t count)> take;
     // Called before the body of an answer. `from_byte` is where the body begins; it is 0 if the
     // server sends the whole object although a part was requested. If `begin` returns false, the

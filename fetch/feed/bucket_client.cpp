@@ -13,8 +13,7 @@ namespace {
 constexpr int parallel = 12;
 constexpr std::chrono::seconds longest_transfer{60};
 constexpr std::uint64_t most_page_bytes = std::uint64_t{1} << 20;
-// A page has 1,000 keys, and a directory has at most 999 chunks of each round of the ring of volume
-// numbers.
+// A page has 1,000 keys. In each round of the volume numbers, a directory gets at most 999 chunks.
 constexpr std::size_t most_pages = 4;
 constexpr std::size_t longest_token = 1024;
 

@@ -5,7 +5,7 @@
 // the environment. It limits the bytes, the time and the pages of each answer.
 //
 // Threads   One thread at a time. run() calls the functions that take answers.
-// Errors    They are passed to the function that takes the answer. The message gives the cause.
+// Errors    The function that takes the answer gets the error. The message gives the cause.
 //           busy        may pass: no connection, a timeout, 429, 500 and above, or a cut transfer
 //           not_found   404 and 410
 //           permission  403

@@ -7,7 +7,7 @@
 //
 // Units     Times are the start of the volume by the radar's clock.
 // Threads   Plain values and pure functions.
-// Errors    None. parse_chunk_key() returns std::nullopt for a key of another form.
+// Errors    None. parse_chunk_key() returns std::nullopt for a key that does not have this form.
 #pragma once
 
 #include <chrono>
@@ -23,8 +23,8 @@ namespace stormcellar::feed {
 
 inline constexpr int last_volume = 999;  // the next volume is number 1
 inline constexpr int last_chunk = 999;
-// A key is rejected if its time is further in the future than this. Otherwise it would count as the
-// newest for ever.
+// A key is rejected if its time is further in the future than this. Otherwise the key would count
+// as the newest forever.
 inline constexpr std::chrono::hours tolerated_clock_error{24};
 
 struct VolumeId {

@@ -30,7 +30,7 @@ struct FeedConfig {
     std::string proxy;                     // empty: none
     std::string ca_file;                   // empty: the certificates of the system
     std::string log_level = "info";        // debug, info, warning or error
-    // These three are not in the file: the limit of listings without news of a station within a
+    // These three are not in the file: how many listings of a station may be without news within a
     // minute, the time after which a station counts as silent, and the time between checks of the
     // ages of volumes.
     std::size_t most_in_vain = 20;

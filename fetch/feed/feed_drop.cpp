@@ -19,8 +19,8 @@ std::uint64_t counted_bytes(std::uint64_t size) {
     return std::max(size, least_counted);
 }
 
-// Returns the names of this type in a directory; none if the directory cannot be read. Does not
-// follow links.
+// Returns the names of the entries of this type in a directory; none if the directory cannot be
+// read. Does not follow links.
 std::vector<std::string> names_in(const fs::path& directory, fs::file_type type) {
     std::vector<std::string> names;
     std::error_code error;

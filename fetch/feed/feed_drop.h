@@ -1,14 +1,14 @@
 // fetch/feed/feed_drop.h -- the directory into which the feed writes chunks, under LDM's names.
 //
-// A chunk has the path of its key: SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E. It appears there complete
-// or not at all; while it is written, it has a temporary name that stormcellard ignores. Writing
-// does not wait for the disk, because thirty chunks may come in a second, and the bucket keeps
-// chunks for hours. A power cut may lose the last chunks or leave them empty; open() removes empty
-// chunks, so that they are fetched again. Only the directory records which chunks were written.
-// prune() removes volumes that are too old, and then the oldest volumes until the others fit the
-// limit of bytes. It removes only files whose names begin as the names of a volume's chunks do.
-// open() also removes temporary files of a killed writer. Only one process may write to a
-// directory.
+// A chunk has the path of its key: SITE/VOLUME/YYYYMMDD-HHMMSS-NNN-S|I|E. A chunk appears at its
+// path complete or not at all; until it is complete, it has a temporary name that stormcellard
+// ignores. Writing does not wait for the disk, because thirty chunks may come in a second, and the
+// bucket keeps chunks for hours. A power cut may lose the last chunks or leave them empty; open()
+// removes empty chunks, so that they are fetched again. Only the directory records which chunks
+// were written. prune() removes volumes that are too old, and then the oldest volumes until the
+// newer volumes fit the limit of bytes. It removes only files whose names begin as the names of a
+// volume's chunks do. open() also removes temporary files of a killed writer. Only one process may
+// write to a directory.
 //
 // Units     Sizes are in bytes. A chunk counts as 16 KiB at least, so that a limit of bytes also
 //           limits the number of files.

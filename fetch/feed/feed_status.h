@@ -23,12 +23,12 @@ struct StationStatus {
     std::optional<VolumeId> volume;     // the volume being followed
     int chunk = 0;                      // the highest chunk that was written or given up
     std::optional<UtcTime> written_at;  // when a chunk was last written
-    std::uint64_t written = 0;          // counts since the start: chunks written,
-    std::uint64_t present = 0;          // chunks already present,
-    std::uint64_t refused = 0;          // chunks given up,
-    std::uint64_t missing = 0;          // chunks that never came,
-    std::uint64_t listings = 0;         // requests for listings,
-    std::uint64_t failures = 0;         // and failed requests
+    std::uint64_t written = 0;          // chunks written since the start
+    std::uint64_t present = 0;          // chunks found in the directory since the start
+    std::uint64_t refused = 0;          // chunks given up since the start
+    std::uint64_t missing = 0;          // chunks that never came, since the start
+    std::uint64_t listings = 0;         // requests for listings since the start
+    std::uint64_t failures = 0;         // failed requests since the start
 };
 
 struct FeedStatus {

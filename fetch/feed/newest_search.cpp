@@ -73,8 +73,7 @@ std::optional<NewestSearch::Start> NewestSearch::start() const {
     const int newest = numbers_[newest_];
     const int before = newest == 1 ? last_volume : newest - 1;
     const bool has_before = std::ranges::binary_search(numbers_, before);
-    // All directories between the first and the newest have volumes that are newer than the
-    // first's.
+    // All directories between the first and the newest have newer volumes than the first directory.
     const bool is_between = has_before && newest_ >= 2;
     return Start{has_before ? before : newest,
                  is_between ? first_time_ : first_time_ - earlier_round};

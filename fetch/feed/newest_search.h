@@ -4,9 +4,10 @@
 // rise up to the newest volume. The next directory, if any, has the oldest volume, and from there
 // the times rise again. So the search bisects, and compares each time with the newest time of the
 // first directory. A directory with a newer time is at or before the newest volume; any other
-// directory after the first is behind it. This takes some 12 listings, however full the ring is. If
-// a station has jumped to another number, the times may fall more than once, and the search may end
-// at any such fall. Then no chunks follow there, and StationFollower searches further.
+// directory after the first is behind the newest volume. The search takes some 12 listings, however
+// full the ring is. If a station has jumped to another number, the times may fall more than once,
+// and the search may end at any such fall. Then no chunks follow there, and StationFollower
+// searches further.
 //
 // Threads   Plain data; one thread at a time.
 #pragma once
@@ -31,8 +32,8 @@ class NewestSearch {
     [[nodiscard]] bool is_done() const { return step_ == Step::done; }
 
     // The place at which StationFollower begins. This is the directory before the newest, so that a
-    // complete volume comes first, or the newest directory if there is none before it. Chunks older
-    // than `from` belong to an earlier round of the volume numbers.
+    // complete volume comes first, or the newest directory if there is no directory before it.
+    // Chunks older than `from` belong to an earlier round of the volume numbers.
     struct Start {
         int number = 0;
         UtcTime from;

@@ -3,10 +3,10 @@
 // While chunks come, the next listing follows after the polling interval, or after half the time
 // between chunks if that is longer, but never after more than three intervals. A station that has
 // been silent for a minute is asked less and less often, down to every 30 s. After a failure the
-// pause is 1 s, or the polling interval if that is shorter. It doubles with each further failure,
-// up to 60 s. If the server requests a longer pause, that pause applies, up to 60 s. Listings
-// without news are limited to 20 within a minute. Each pause is shortened at random by up to a
-// tenth, so that stations do not ask at the same time.
+// pause is 1 s, or the polling interval if that is shorter. The pause doubles with each further
+// failure, up to 60 s. If the server requests a longer pause, that pause applies, up to 60 s.
+// Listings without news are limited to 20 within a minute. Each pause is shortened at random by up
+// to a tenth, so that stations do not ask at the same time.
 //
 // Threads   Plain data; one thread at a time. The caller passes the current time.
 #pragma once

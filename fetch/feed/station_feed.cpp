@@ -119,8 +119,8 @@ void StationFeed::give_up(const Error& why) {
     finish_chunk();
 }
 
-// Notes that a failure is over. Call it only after a whole turn has worked: the bucket may answer
-// and the disk still be full.
+// Notes that a failure is over. Call it only after a whole turn has worked, because the bucket may
+// answer while the disk is still full.
 void StationFeed::note_good() {
     if (status_.error.empty()) return;
     status_.error.clear();

@@ -5,9 +5,9 @@
 // numbers. The station makes one request at a time. A chunk that is in the drop directory with the
 // right size is not fetched, for example after a restart. If a chunk is smaller or larger than
 // listed, or the bucket refuses it, the station tries three times and then gives the chunk up. If
-// requests fail for another reason, it tries eight times. A chunk that is listed with no bytes, or
-// with more than 4 MiB, is given up at once. After a failure the station pauses, and then lists
-// again.
+// requests fail for another reason, the station tries eight times. A chunk that is listed with no
+// bytes, or with more than 4 MiB, is given up at once. After a failure the station pauses, and then
+// lists again.
 //
 // Threads   All calls must come from the thread of BucketClient::run().
 // Errors    None. status() and the log report failures.

@@ -135,7 +135,7 @@ StationFollower::News StationFollower::take_search(const fetch::ListingPage& ans
     return {{}, true};
 }
 
-// Returns the chunks in the answer that the question asked for, sorted. Ignores other keys.
+// Returns those chunks in the answer that the question asked for, sorted. Ignores other keys.
 std::vector<StationFollower::Chunk> StationFollower::chunks_in(const fetch::ListingPage& answer,
                                                                UtcTime utc) const {
     std::vector<Chunk> chunks;
@@ -179,7 +179,7 @@ StationFollower::News StationFollower::new_in(const fetch::ListingPage& answer, 
     }
     if (asked_ == Asked::current) add_new_of(*current_);
     if (!news.chunks.empty()) return news;
-    // If this is the directory of the present volume, only a later volume in it is new.
+    // If this is the directory of the volume that is followed, only a later volume in it is new.
     const auto next = std::ranges::find_if(listed, [&](const Chunk& chunk) {
         return !current_ || (chunk.key.volume != current_->id &&
                              (asked_ == Asked::directory || current_->id < chunk.key.volume));

@@ -2,7 +2,7 @@
 // chunks in the answer.
 //
 // The follower follows one volume. It lists the keys from the first missing chunk on, so that it
-// sees late chunks as well as new ones. When the volume is complete, and at every fourth listing
+// sees late chunks as well as new chunks. When the volume is complete, and at every fourth listing
 // without news, it lists the directory of the next number instead. There it asks only for keys from
 // at most an hour before this volume, because older keys belong to an earlier round of the ring of
 // volume numbers (1 follows 999). It also follows a later volume in the same directory. If it left
@@ -29,15 +29,14 @@
 
 namespace stormcellar::feed {
 
-// The chunks of a volume that were written or given up.
+// The written or given-up chunks of a volume.
 class VolumeChunks {
   public:
     [[nodiscard]] bool has(int number) const {
         return done_.test(static_cast<std::size_t>(number));
     }
     void add(int number, level2::ChunkKind kind);
-    // Returns the largest number for which no chunk is missing up to it; 0 if the first chunk is
-    // missing.
+    // Returns the largest number up to which no chunk is missing; 0 if the first chunk is missing.
     [[nodiscard]] int without_gap() const;
     [[nodiscard]] bool is_whole() const { return end_ > 0 && without_gap() >= end_; }
     [[nodiscard]] int highest() const { return highest_; }
@@ -51,7 +50,7 @@ class VolumeChunks {
 
 class StationFollower {
   public:
-    // `written` lists the volumes with which to continue, oldest first, at most two. If it is
+    // `written` lists the volumes with which to continue, oldest first, at most two. If the list is
     // empty, the follower searches for the newest volume.
     StationFollower(std::string station, const std::vector<VolumeId>& written, SteadyTime now);
 

@@ -44,8 +44,8 @@ struct HttpClient::Handle {
     }
     [[nodiscard]] bool is_stopped() const { return options->stop != nullptr && *options->stop; }
 
-    // Passes a piece of the body to `take`. Catches exceptions, because one that passed through
-    // libcurl would make its handle useless.
+    // Passes a piece of the body to `take`. Catches exceptions, because an exception that passed
+    // through libcurl would make its handle useless.
     [[nodiscard]] Status given(std::span<const std::byte> piece) const {
         try {
             return request->take(piece);
@@ -106,7 +106,7 @@ HttpClient::~HttpClient() {
     if (handle_->easy != nullptr) curl_easy_cleanup(handle_->easy);
 }
 
-// Runs a transfer with one more header, if that is not empty. Fails if there is no whole answer.
+// Runs a transfer. Also sends `header` unless it is empty. Fails if there is no whole answer.
 Status HttpClient::transfer(const HttpRequest& request, const std::string& header) {
     Handle& handle = *handle_;
     if (handle.easy == nullptr) return fail(ErrorCode::busy, "libcurl cannot be started");
@@ -134,7 +134,8 @@ Status HttpClient::transfer(const HttpRequest& request, const std::string& heade
     return fail(has_begun ? ErrorCode::truncated : ErrorCode::busy, "{}: {}", url, text);
 }
 
-// Returns the error for an answer that is not a success, and notes the wait that it requests.
+// Returns the error for an answer that is not a success, and notes the wait that the answer
+// requests.
 tl::unexpected<Error> HttpClient::refusal(const std::string& url) {
     const long status = handle_->status();
     curl_off_t seconds = 0;

@@ -29,10 +29,12 @@ namespace stormcellar::pull {
 
 struct HttpRequest {
     std::string url;
-    // With its quotes; the server need not send content with this tag.
+    // The tag of the content that the caller already has, with its quotes. The server need not send
+    // this content again.
     std::string known_tag;
     std::uint64_t most_bytes = 0;  // of the body
-    // Takes the body of an answer 200, piece by piece. If it returns an error, the transfer ends.
+    // Takes the body of an answer 200, piece by piece. If `take` returns an error, the transfer
+    // ends.
     std::function<Status(std::span<const std::byte>)> take;
 };
 

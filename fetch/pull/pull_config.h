@@ -17,8 +17,8 @@ namespace stormcellar::pull {
 struct PullSource {
     std::string name;  // also the name of its directory
     std::string url;   // "http://HOST:PORT", perhaps with a path, without a '/' at the end
-    std::vector<std::string> domains = {};   // pull partials only of these; empty: of all domains
-    std::vector<std::string> stations = {};  // pull partials only of these; empty: of all stations
+    std::vector<std::string> domains = {};   // pull partials only of these domains; empty: all
+    std::vector<std::string> stations = {};  // pull partials only of these stations; empty: all
     bool operator==(const PullSource&) const = default;
 };
 

@@ -45,7 +45,7 @@ class PullService {
     FileSystem& file_system_;
     const PullConfig config_;
     std::atomic<bool> stop_{false};
-    Mutex mutex_;  // lock it to set stop_; else a thread about to wait would miss that
+    Mutex mutex_;  // hold it to set stop_, so that a thread about to wait sees the change
     ConditionVariable stopped_;
     std::string published_;  // the last status, without the time at which it was written
     std::vector<std::unique_ptr<SourcePuller>> pullers_;

@@ -21,10 +21,10 @@ struct SourceStatus {
     std::optional<UtcTime> newest;    // time of the newest grid
     std::size_t grids = 0;
     std::uint64_t bytes = 0;     // on disk
-    std::uint64_t pulled = 0;    // counts since the start: grids kept,
-    std::uint64_t refused = 0;   // grids that failed a check or were cut in transfer,
-    std::uint64_t removed = 0;   // grids that the limits removed,
-    std::uint64_t failures = 0;  // and turns that failed
+    std::uint64_t pulled = 0;    // grids kept since the start
+    std::uint64_t refused = 0;   // grids that failed a check or were cut off, since the start
+    std::uint64_t removed = 0;   // grids that the limits removed since the start
+    std::uint64_t failures = 0;  // turns that failed since the start
 };
 
 // Returns one JSON object, ended by a line feed.

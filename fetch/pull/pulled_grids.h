@@ -29,7 +29,7 @@ namespace stormcellar::pull {
 struct PulledLimits {
     std::uint64_t bytes = 0;
     std::chrono::seconds age{0};
-    // Limit of the number of grids. Each takes a file and some memory, however small it is. For a
+    // Limit of the number of grids. Each grid, however small, takes a file and some memory. For a
     // mosaic, all radars of a nation make some 60,000 grids of one moment in a day.
     std::size_t grids = 100'000;
 };
