@@ -38,7 +38,7 @@ Result<std::optional<retrieve::TrackedScan>> AreaWatch::look(UtcTime now) {
     return read_new(*entries) ? newest(now) : std::nullopt;
 }
 
-// Reads grids that are new, the oldest first. Returns true if none is left.
+// Reads grids that are new, the oldest first. Returns true if no new grid is left.
 bool AreaWatch::read_new(const std::vector<cache::StoreEntry>& entries) {
     int count = 0;
     for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -1,14 +1,13 @@
 // notify/area_watch.h -- finds the cells of an area, a station or a domain, whenever a grid comes.
 //
 // The watch reads the REF grids of the last three hours, so that it knows the tracks of cells right
-// after a start. The id of a cell stays the same as long as its first grid is among these. A grid
-// that will be replaced (of a volume that has not ended, or a provisional frame) counts only when
-// there is a later grid. A file that cannot be read is left out.
+// after a start. The id of a cell stays the same as long as the cell's first grid is one of these
+// grids. A grid that will be replaced (of a volume that has not ended, or a provisional frame)
+// counts only when there is a later grid. A file that cannot be read is left out.
 //
 // Threads   One thread at a time.
-// Errors    Those of listing the cache. Problems of single grids are logged, and once that the area
-// has
-//           no grids, because its name may be wrong.
+// Errors    Those of listing the cache. Problems of single grids are logged. An area without grids
+// is logged once, because its name may be wrong.
 #pragma once
 
 #include <filesystem>

@@ -1,13 +1,14 @@
-// notify/courier.h -- delivers the messages of one rule, the oldest first, and tries again if that
-// fails.
+// notify/courier.h -- delivers the messages of one rule, the oldest first, and tries again after a
+// failure.
 //
 // After a failure that may pass, the next try follows after a second. The pause doubles with each
-// further failure, up to a minute. A final failure (sender.h), and an age of more than
-// `longest_age`, drop a message with a line in the log. A message that is old helps nobody: the
+// further failure, up to a minute. After a final failure (sender.h), or at an age of more than
+// `longest_age`, a message is dropped with a line in the log. An old message helps nobody: the
 // storm has moved on.
 //
 // Threads   One thread at a time.
-// Errors    None are returned; failures are logged, the first of each row of failures.
+// Errors    None are returned. Of several failures in a row that may pass, only the first is
+//           logged.
 #pragma once
 
 #include <chrono>
@@ -30,7 +31,7 @@ class Courier {
         : rule_(std::move(rule)), outbox_(outbox), send_(std::move(send)) {}
 
     // Drops messages that are too old. If a message waits and a try is due, tries to deliver it.
-    // Returns true if the message was delivered or dropped, so that the next one may follow at
+    // Returns true if the message was delivered or dropped, so that the next message may follow at
     // once.
     bool step(UtcTime now, SteadyTime steady);
 

@@ -27,7 +27,7 @@ constexpr std::string_view usage =
     "  --check-config   check what concerns this program in FILE, and exit\n"
     "  --version, --help\n";
 
-// Ends the threads and starts new ones with the new configuration. Returns false if that fails.
+// Ends the threads and starts new threads with the new configuration. Returns false if that fails.
 bool reload(std::unique_ptr<NotifyService>& service, const std::filesystem::path& file) {
     const auto fresh = load_notify_config(file);
     if (!fresh) {

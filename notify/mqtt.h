@@ -3,8 +3,8 @@
 // Each message has a connection of its own (MQTT 3.1.1, a clean session, quality of service 1, not
 // retained), because messages are rare. The message counts as delivered when the broker has
 // acknowledged it. A broker of MQTT 3.1.1 also acknowledges a message that it refuses because the
-// user may not publish it. With TLS, the certificate of the broker must be of the address's host,
-// and of an authority that the system trusts. Without TLS, use a broker on this machine, or on a
+// user may not publish it. With TLS, the certificate of the broker must be for the address's host,
+// and from an authority that the system trusts. Without TLS, use a broker on this machine, or on a
 // network that you trust.
 //
 // Threads   Any thread; only looking up the name of a host blocks for longer than a second.

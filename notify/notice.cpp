@@ -48,7 +48,7 @@ bool reaches(const std::optional<double>& least, double value) {
     return !least || value >= *least;
 }
 
-// Rounds to tenths. JSON has no other numbers than finite ones, so those become null.
+// Rounds to tenths. Infinity and NaN become null, because JSON does not have them.
 ordered_json tenths(double value) {
     return std::isfinite(value) ? ordered_json(std::round(value * 10) / 10) : ordered_json();
 }

@@ -2,7 +2,7 @@
 //
 // A cell is at the place if its center of mass is within the radius. It passes if it reaches all
 // thresholds of the rule; an unknown value, such as MESH without echo above the freezing level,
-// reaches none. A rule reports a cell again only after `every`, by the times of the grids.
+// reaches no threshold. A rule reports a cell again only after `every`, by the times of the grids.
 //
 // Units     Meters in C++. The names in the message end with their units.
 // Threads   Pure functions.
@@ -24,13 +24,14 @@
 
 namespace stormcellar::notify {
 
-// The point of a cell's path of the next hour that is closest to a place. The cell keeps its
+// The point closest to a place on the path that a cell takes in the next hour if it keeps its
 // motion.
 struct ClosestApproach {
     double distance_m = 0;
     UtcTime time;
-    // The standard deviation of the position along each axis, between those of the forecasts before
-    // and after. Until the first forecast it is the error of that forecast, an upper bound.
+    // The standard deviation of the position along each axis, interpolated between the forecasts
+    // before and after. Until the first forecast, it is the error of the first forecast, an upper
+    // bound.
     double error_m = 0;
 };
 // Returns none for a cell without forecasts.

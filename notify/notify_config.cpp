@@ -23,7 +23,7 @@ struct MqttScheme {
 };
 constexpr MqttScheme mqtt_schemes[] = {{"mqtt://", false, 1883}, {"mqtts://", true, 8883}};
 
-// Tables of other programs. The shipped file has all of them, and
+// Tables of other programs. The shipped file has all of these tables, and
 // tests/notify/notify_config_test.cpp loads it, so the test fails if a name is missing here.
 constexpr std::string_view tables_of_others[] = {
     "ingest", "cache",   "domain", "loop", "catalog", "watch",  "partials",

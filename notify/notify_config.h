@@ -1,6 +1,6 @@
 // notify/notify_config.h -- reads the tables [notify] and [[notify.rule]] of stormcellard.toml.
 //
-// Units     The ends of the names give them: km, dBZ, kg/m^2, mm.
+// Units     As the ends of the names say: km, dBZ, kg/m^2, mm.
 // Threads   Plain data and a pure function.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::chrono::milliseconds between_steps{1000};
 constexpr std::chrono::seconds longest_turn{20};
-// Settled messages are kept for this long after the time in which they limit others.
+// Settled messages are kept for this long after the time in which they limit other messages.
 constexpr std::chrono::hours kept_longer{1};
 
 }  // namespace

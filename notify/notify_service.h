@@ -1,5 +1,5 @@
-// notify/notify_service.h -- follows the areas of all rules, and runs a thread for each rule that
-// delivers its messages.
+// notify/notify_service.h -- follows the areas of all rules, and runs a thread for each rule to
+// deliver the rule's messages.
 //
 // Each rule has a directory and a thread of its own, so that a server that hangs does not delay the
 // messages of other rules.
@@ -33,8 +33,9 @@ class NotifyService {
     ~NotifyService();
 
     // Looks for new grids, and writes messages about their cells. Begins with no further area after
-    // 20 s, so that the caller can feed its watchdog; the next call goes on there. Returns the last
-    // of the errors. After an error a later call tries the same again, and writes no message twice.
+    // 20 s, so that the caller can feed its watchdog; the next call begins with the next area.
+    // Returns the last of the errors. After an error a later call tries the same area again, and
+    // writes no message twice.
     Status turn(UtcTime now);
     // Returns the time since the last sign of progress of the thread that has been silent longest.
     [[nodiscard]] std::chrono::milliseconds longest_silence() const;
@@ -52,7 +53,7 @@ class NotifyService {
     std::vector<AreaWatch> areas_;
     std::size_t next_area_ = 0;
     std::atomic<bool> stop_{false};
-    Mutex mutex_;  // lock it to set stop_; else a thread about to wait would miss that
+    Mutex mutex_;  // hold it to set stop_, or a thread about to wait would miss the change
     ConditionVariable stopped_;
     std::vector<std::unique_ptr<Post>> posts_;
 };

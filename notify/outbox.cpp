@@ -37,7 +37,7 @@ std::optional<MessageName> parse_id(std::string_view id) {
         milliseconds = 10 * milliseconds + (c - '0');
     MessageName name{*seconds + std::chrono::milliseconds{milliseconds},
                      std::string(id.substr(time_length + 1))};
-    // Only the id that id() writes is an id.
+    // Accept a text only if id() writes the same text.
     return name.id() == id ? std::optional{std::move(name)} : std::nullopt;
 }
 

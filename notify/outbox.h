@@ -10,7 +10,8 @@
 // drops the oldest. Only one process may use the directory.
 //
 // Threads   Many threads may use one Outbox.
-// Errors    Those of file operations. put() that failed leaves no message and may be called again.
+// Errors    Those of file operations. After an error, put() leaves no message and may be called
+//           again.
 #pragma once
 
 #include <chrono>

@@ -4,7 +4,7 @@
 //           ends within a second or so.
 // Errors    make_sender(): the password file cannot be read, has no "USER:PASSWORD", or may be read
 //           by every user of the machine. The function: those of pull::HttpClient::post() and of
-//           publish_by_mqtt(). may_pass() says which of them another try may overcome.
+//           publish_by_mqtt(). may_pass() says after which of these errors another try may succeed.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,8 @@ namespace stormcellar::notify {
 
 using Sender = std::function<Status(const std::string& text)>;
 
-// `beat` is called at least once a second during a delivery. It and `stop` must outlive the sender.
+// `beat` is called at least once a second during a delivery. What `beat` refers to, and `stop`,
+// must outlive the sender.
 [[nodiscard]] Result<Sender> make_sender(const NotifyRule& rule, const std::atomic<bool>& stop,
                                          std::function<void()> beat);
 
