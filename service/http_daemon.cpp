@@ -37,8 +37,8 @@ Result<MHD_Daemon*> start_http_daemon(int listening, HttpDaemonOptions options) 
         MHD_OPTION_NOTIFY_CONNECTION, options.connection, options.self,
         MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_ARRAY, options.others.data(),
         MHD_OPTION_END);
-    // Do not close the copy here. Either the daemon owns it now, or libmicrohttpd has closed it
-    // after a failure.
+    // Do not close the copy here. Either the daemon owns the copy now, or libmicrohttpd has closed
+    // the copy after a failure.
     if (daemon != nullptr || !is_same_file(own.number(), listening)) (void)own.release();
     if (daemon == nullptr) return fail(ErrorCode::io, "libmicrohttpd cannot start");
     return daemon;

@@ -1,5 +1,5 @@
 // service/log.h -- writes log lines of a service to stderr. Only programs and their services call
-// these functions; the daemon calls them through daemon/log/log.h.
+// these functions directly; the daemon calls them through daemon/log/log.h.
 //
 // If stderr is the journal, each line begins with the prefix "<N>", from which the journal takes
 // the level. Otherwise each line begins with the time and the level. Control characters are

@@ -13,8 +13,8 @@ namespace {
 // The words, in the order of MetricsWriter::Type.
 constexpr std::array<std::string_view, 4> words = {"counter", "gauge", "summary", "histogram"};
 
-// Escapes a label value. printable() has replaced line ends and invalid UTF-8. Its backslashes are
-// escaped like others.
+// Escapes a label value. printable() has replaced line ends and invalid UTF-8. The backslashes that
+// printable() wrote are escaped like other backslashes.
 std::string escaped(std::string_view text) {
     std::string result;
     for (const char letter : printable(text)) {

@@ -34,8 +34,9 @@ class MetricsWriter {
     void sample(double value, Labels labels = {});
     void sample(double value, std::span<const Label> labels);
     void sample(std::uint64_t value, Labels labels = {});
-    // Writes a sample of a summary. If there are last values, it has their median, 95th percentile
-    // and maximum (quantiles 0.5, 0.95 and 1). It also has the sum and the count of all values.
+    // Writes a sample of a summary. If there are last values, the sample has their median, 95th
+    // percentile and maximum (quantiles 0.5, 0.95 and 1). The sample also has the sum and the count
+    // of all values.
     void sample(const Timings& timings, Labels labels = {});
     // Writes a sample of a histogram with one label. Each element of `counts` is the number of
     // values between a bound and the bound before it; the last element is the number of values

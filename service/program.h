@@ -28,8 +28,8 @@ struct ServiceProgram {
 // Writes "PROGRAM: ERROR" to stderr. Returns 1, the exit status for a failure.
 int complain(std::string_view program, const Error& error);
 
-// Reports that --check-config found no fault in a file, and as which user it checked. Returns the
-// exit status 0.
+// Reports that --check-config found no fault in a file, and as which user the file was checked.
+// Returns the exit status 0.
 int say_checked(std::string_view program, std::string_view service_user,
                 const std::filesystem::path& file);
 

@@ -61,7 +61,7 @@ struct Step {
 
 class Pulses {
   public:
-    // Adds a pulse. It must exist as long as oldest() is called.
+    // Adds a pulse, which must exist as long as oldest() is called.
     void watch(std::string who, const Pulse& pulse) { all_.push_back({std::move(who), &pulse}); }
     // Returns the step that has lasted longest; none if all threads are at rest.
     [[nodiscard]] std::optional<Step> oldest() const;

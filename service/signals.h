@@ -1,4 +1,4 @@
-// service/signals.h -- turns signals into events that a thread waits for, or blocks them.
+// service/signals.h -- turns signals into events that a thread waits for, or blocks signals.
 //
 // Call Signals::open() once, before any thread starts. It blocks SIGTERM, SIGINT and SIGHUP for
 // this thread and for the threads that this thread starts, and ignores SIGPIPE. A blocked signal
