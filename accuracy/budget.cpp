@@ -75,8 +75,8 @@ Result<Part> split_part(std::string_view text) {
     }
     const std::string_view behind =
         trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-    // isfinite() refuses infinities and NaN, and signbit() also -0, without a comparison that would
-    // trap on NaN.
+    // isfinite() refuses infinities and NaN, and signbit() refuses -0. A comparison would trap on
+    // NaN, but neither function makes one.
     if (error != std::errc{} || !std::isfinite(part.number) || std::signbit(part.number)) {
         return fail(ErrorCode::bad_argument,
                     "\"{}\" in the budget must be a finite number and not negative",

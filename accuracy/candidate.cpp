@@ -17,7 +17,8 @@ Candidate evaluate(const Chain& chain, const Choice& choice) {
     return candidate;
 }
 
-// Returns true if the chain has efforts. Without them, only measured costs can order its choices.
+// Returns true if the chain has efforts. Without efforts, only measured costs can order the
+// choices.
 bool has_efforts(const Chain& chain) {
     for (const Step& step : chain.steps) {
         for (const Effect& effect : step.effects) {

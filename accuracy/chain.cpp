@@ -30,7 +30,7 @@ Status validate_effect(const Effect& effect) {
     return {};
 }
 
-// Checks each effect that is set on: all effects below it in its step must be allowed to be on.
+// Checks the effects that are set on. All lower effects of the same step must be allowed to be on.
 Status validate_settings(const Step& step) {
     const RungRange range = allowed_rungs(step);
     if (range.least <= range.most) return {};

@@ -176,7 +176,7 @@ class Trial {
         best_size_ = size;
     }
 
-    // Returns a text for the shortfall that names the effects that the user set off.
+    // Returns the end of the shortfall's text, which names the effects that the user set to off.
     [[nodiscard]] std::string settings_in_the_way() const {
         std::string text;
         for (const Step& step : chain_.steps) {

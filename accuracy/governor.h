@@ -5,14 +5,13 @@
 // choices whose predicted sums are within the budget, in order of rising effort. It calls the
 // caller's `measure` for each choice and returns the first choice that meets the budget. A choice
 // meets the limit of a quantity
-//   by proof       if every effect left off that touches the quantity has a proven bound (a sample
-//   by proof       if every effect left off that touches the quantity has a proven bound (a sample
-//                  that shows no effect is no proof), or
+//   by proof       if each effect that is left off and touches the quantity has a proven bound (a
+//                  sample that shows no effect is no proof), or
 //   by measuring   if the measured upper bound is within the limit.
 // A choice that is proven in every bounded quantity is not measured. If the sample is too small for
 // a bound, the limit counts as not met, so that no choice passes by luck. At most `most_measured`
-// choices are tried. If more choices fit by prediction, the last one tried is the most accurate of
-// all.
+// choices are tried. If more choices fit by prediction, the last choice tried is the most accurate
+// of all.
 //
 // The time for measuring counts toward a budget's time: a choice is taken only if its cost plus the
 // time already spent on measuring is within the budget's time. If the budget bounds only the time,

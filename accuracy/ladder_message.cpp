@@ -78,7 +78,7 @@ std::string gains(const Rung& rung, const Rung& base, ValueUnit unit) {
 }
 
 // Returns log(fall of the error) / log(rise of the time) from `base` to `rung`. Returns 0 for a
-// rung without error, so that such a rung is chosen only if there is no other.
+// rung without error, so that this rung is chosen only if no other rung can be chosen.
 double bargain(const Rung& rung, const Rung& base) {
     if (rung.error <= 0) return 0;
     return std::log(base.error / rung.error) / std::log(std::max(1.01, rung.time_s / base.time_s));

@@ -31,12 +31,12 @@ struct LadderMessage {
 // The base is the default rung, whose name ends with "(default)", or else the fastest rung. It is
 // compared with the rungs that are slower than the base, are on the Pareto front, and have a
 // smaller error. `buy` names the fastest of them whose error is at least a tenth smaller than the
-// base's. If no rung gains a tenth, `buy` names the fastest of them; if there is none at all, `buy`
-// says so.
+// base's. If none of the compared rungs gains a tenth, `buy` names the fastest compared rung. If
+// there is no rung to compare with the base, `buy` says so.
 //
-// `beyond` looks at the rungs that are slower and more accurate than the rung in `buy`. It names
-// the one with the largest ratio of log(fall of the error) to log(rise of the time). A rung without
-// error is named only if there is no other.
+// `beyond` looks at the rungs that are slower and more accurate than the rung in `buy`. `beyond`
+// names the rung with the largest ratio of log(fall of the error) to log(rise of the time). A rung
+// whose error is 0 is named only if there is no other.
 //
 // The message is empty if fewer than two rungs have an error and a time. In its text, ratios from
 // 10 on are whole numbers; smaller ratios have at most one decimal.

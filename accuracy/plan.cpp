@@ -18,8 +18,8 @@ bool is_empty(const Budget& budget) {
     return !budget.bounds_errors() && !budget.time_s;
 }
 
-// The effect of lowering a step to below one of its effects: the error that would be left off and
-// the time that would be saved if that effect and all effects above it in the step were off.
+// The result of lowering a step until one of its effects and all effects above that effect are off:
+// the error that is left off, and the time that is saved.
 struct Lowered {
     ErrorSize left_off;
     double saved_s = 0;

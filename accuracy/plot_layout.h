@@ -48,7 +48,7 @@ struct PlotLayout {
     std::vector<std::string> series;              // in the order of first appearance
     std::vector<PlotTick> time_ticks, error_ticks;
     std::optional<double> zero_y;     // the row of exact points, if there are any
-    double zero_below = 0;            // the row of exact points also holds errors below this
+    double zero_below = 0;            // the row of exact points also holds errors below this value
     std::vector<PlotMarker> markers;  // one for each point, in order
     std::vector<PlotLabel> labels;    // one for each marker, in order
 };

@@ -25,7 +25,7 @@ bool sensible(const BoundRequest& request) {
 
 // Returns how many of n errors may exceed the bound: the largest c for which at most c errors
 // exceed the true quantile with a probability of at most 1 - confidence. Returns none if even "no
-// errors exceed it" is too likely.
+// errors exceed the bound" is too likely.
 std::optional<std::size_t> allowed_exceedances(std::size_t n, const BoundRequest& request) {
     const auto count = static_cast<double>(n);
     const double log_odds = std::log1p(-request.quantile) - std::log(request.quantile);
@@ -49,7 +49,7 @@ struct Column {
     double weight = 1;
 };
 
-// The number of stakes. Each bets a different fraction of its capital.
+// The number of stakes. Each stake bets a different fraction of its capital.
 constexpr std::size_t stake_count = 8;
 
 // Returns the logarithm of the capital won by betting that t is at least the quantile, as a mean

@@ -33,15 +33,15 @@ struct BoundRequest {
 // Bounds errors in clusters, such as the columns of a grid. Only the clusters are independent; all
 // cells of one cluster may be off together. Clusters may be empty, may differ in size, and may be
 // drawn without replacement. The size of a cluster may depend on its errors. Some clusters may be
-// drawn more often than others, if their weights make up for it:
+// drawn more often than others, if their weights make up for the difference:
 //   strata        Fix beforehand how many clusters to draw from each stratum; weight = (clusters in
 //                 the stratum) / (clusters drawn from it).
 //   proportional  Draw with replacement, in proportion to a size that is known for all clusters,
 //                 such as the number of cells in which the cheap form has a value; weight = 1 /
 //                 size.
 // `most_weight` is the largest possible (weight * errors) of any cluster that could have been
-// drawn. Pass a number that is known beforehand, not one taken from the sample; for columns with
-// weight 1, pass the number of levels. If a cluster exceeds `most_weight`, there is no bound.
+// drawn. Pass a number that is known beforehand, not a number taken from the sample; for columns
+// with weight 1, pass the number of levels. If a cluster exceeds `most_weight`, there is no bound.
 //
 // The method bets that t is at least the quantile. A cluster with weight w and m errors, of which k
 // exceed t, multiplies the stake by 1 - l w (k - (1 - quantile) m), where l is a constant. If t

@@ -13,7 +13,7 @@ namespace stormcellar::accuracy {
 // Returns the seconds of a monotonic clock.
 [[nodiscard]] double monotonic_s();
 // Returns the processor time of the calling thread in seconds. Other threads and programs do not
-// add to it.
+// add to this time.
 [[nodiscard]] double thread_s();
 
 struct Timing {

@@ -12,7 +12,7 @@ namespace stormcellar::archive {
 namespace {
 
 // Returns true if the checksum shows that the bytes are a tar header. The checksum is the sum of
-// all bytes of the header, with blanks in its own place.
+// all bytes of the header, with blanks in place of the checksum itself.
 bool is_tar_header(std::span<const std::byte> bytes) {
     constexpr std::size_t sum_at = 148;
     constexpr std::size_t sum_bytes = 8;

@@ -44,7 +44,7 @@ inline constexpr std::size_t most_name_bytes = 1024;
 // return.
 [[nodiscard]] std::string_view refusal_of(::archive_entry* entry, const std::string& name);
 [[nodiscard]] std::optional<UtcTime> time_of(::archive_entry* entry);
-// Returns the size in the header, which is only a hint, or 0 if it is unknown.
+// Returns the size that the header gives, or 0 if it gives none. The size is only a hint.
 [[nodiscard]] std::uint64_t claimed_bytes_of(::archive_entry* entry);
 
 }  // namespace stormcellar::archive

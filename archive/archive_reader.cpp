@@ -140,8 +140,8 @@ struct ArchiveReader::Impl {
         ::archive_entry* entry = nullptr;
         const bool passed = archive_read_data_skip(handle.get()) >= ARCHIVE_WARN;
         const int code = passed ? read_header(entry, most_header_bytes) : ARCHIVE_FATAL;
-        // libarchive returns another code after a damaged header. A search for the next header
-        // could help there, but the reader stops instead.
+        // Any other code, except ARCHIVE_EOF, means a damaged header. A search might find the next
+        // header, but the reader stops instead.
         if (code == ARCHIVE_OK || code == ARCHIVE_WARN) return entry;
         at_end = true;
         const bool is_behind_all = code == ARCHIVE_EOF || (passed && has_no_room_left());
@@ -245,8 +245,8 @@ struct ArchiveReader::Impl {
         return static_cast<std::size_t>(got);
     }
 
-    // Returns the data of the entry. Returns none, and records the reason, if they are cut, damaged
-    // or beyond a limit.
+    // Returns the data of the entry. Returns none, and records the reason, if the data are cut,
+    // damaged or beyond a limit.
     std::optional<std::vector<std::byte>> data_of(const std::string& name,
                                                   std::uint64_t size_hint) {
         std::vector<std::byte> bytes;
@@ -260,7 +260,7 @@ struct ArchiveReader::Impl {
             bytes.resize(at + *got);
             if (bytes.size() > limits.member_bytes) {
                 leave_out(name, fmt::format("has more than {} bytes", limits.member_bytes));
-                (void)own_name(name);  // counts this member, so the next of this name is the second
+                (void)own_name(name);  // so that the next member of this name gets a number
                 free_array(bytes);
                 pass_over(name);
                 return std::nullopt;

@@ -55,12 +55,12 @@ bool may_be_compressed_twice(std::span<const std::byte> start) {
     return first >= reset || second == reset || (first == 0x1F && second == 0x9D);
 }
 
-// Opens a reader with exactly one filter. libarchive's own choice would look for further filters
-// after the first, and nothing would count the bytes that it unpacks for this search. The filter of
-// compress reads at once, so it cannot be added before its source. Instead, libarchive gets this
-// filter as its only choice. libarchive could then choose compress up to 25 times, which would take
-// milliseconds for each byte of the outermost layer. So PackedStream::open() refuses files that may
-// be compressed twice.
+// Opens a reader with exactly one filter. If libarchive chose the filters, it would look for
+// further filters after the first, and nothing would count the bytes that this search unpacks. The
+// filter of compress reads as soon as it is added, so it cannot be added before the source is set.
+// So for compress alone, libarchive does choose the filter, with compress as the only choice.
+// libarchive could then choose compress up to 25 times, which would take milliseconds for each byte
+// of the outermost layer. So PackedStream::open() refuses files that may be compressed twice.
 bool begin_reading(::archive* handle, int filter, const PackedStream::OpenSource& source) {
     const bool is_compress = filter == ARCHIVE_FILTER_COMPRESS;
     const int code = is_compress ? archive_read_support_filter_compress(handle)

@@ -71,11 +71,11 @@ class PackedStream {
     using Bound = std::function<std::uint64_t(std::uint64_t source_bytes)>;
 
     // Opens a stream on a source that begins with `start`. Returns null if no allowed codec packed
-    // the source, if it may be compressed twice, or if it cannot be read. With `small_codecs`, only
-    // gzip, bzip2 and compress are allowed, which take a few megabytes of memory whatever the input
-    // claims; otherwise xz and zstd are allowed too, which may take 1 GiB. `of_source`, which must
-    // outlive the object, limits how much the codec reads from the source at a time, because a gzip
-    // header may contain an endless name.
+    // the source, if the source may be compressed twice, or if the source cannot be read. With
+    // `small_codecs`, only gzip, bzip2 and compress are allowed, which take a few megabytes of
+    // memory whatever the input claims; otherwise xz and zstd are allowed too, which may take 1
+    // GiB. `of_source`, which must outlive the object, limits how much the codec reads from the
+    // source at a time, because a gzip header may contain an endless name.
     [[nodiscard]] static std::unique_ptr<PackedStream> open(std::span<const std::byte> start,
                                                             const OpenSource& source,
                                                             ReadBudget& of_source,

@@ -1,5 +1,5 @@
-// arrayfile/array_file.h -- reads files of named arrays from bytes: HDF5, and so netCDF-4, and
-// classic netCDF.
+// arrayfile/array_file.h -- reads files of named arrays from bytes: HDF5 (which includes
+// netCDF-4) and classic netCDF.
 //
 // read_tree() returns groups, attributes and the shapes of arrays; read_array() reads one array.
 // The input is hostile, so every address, length and count is bounded before it is used. The reader
@@ -8,9 +8,8 @@
 // types are left out.
 //
 // Threads   Pure functions.
-// Errors    corrupt or truncated: the file contradicts itself, or ends early. unsupported: a
-// feature
-//           that this reader does not have, or a limit, is exceeded.
+// Errors    corrupt or truncated: the file contradicts itself, or ends early. unsupported: the file
+//           needs a feature that this reader does not have, or exceeds a limit.
 // Source    HDF5 File Format Specification 3.0; netCDF Classic and 64-bit Offset Format.
 #pragma once
 
@@ -48,7 +47,7 @@ struct ElementType {
     }
 };
 
-// Returns a number at the start of the bytes, which must hold one of this type.
+// Returns a number at the start of the bytes, which must hold a number of this type.
 [[nodiscard]] double number_at(const std::byte* bytes, const ElementType& type);
 
 // The value of an attribute: a text, or numbers.

@@ -137,7 +137,7 @@ void Header::variable(Group& group) {
     }
     array.attributes = attributes();
     const auto type = element_type(number(4));
-    size();  // the size, which is wrong for large variables; the shape tells it
+    size();  // the size, which is wrong for large variables; the shape tells the size
     array.storage.address = address();
     if (!type) bad_ = true;
     if (bad_) return;

@@ -18,7 +18,8 @@ struct Hdf5Bytes {
     std::size_t length_bytes = 8;
     std::uint64_t base = 0;  // of addresses
 
-    // Returns a cursor from this address to the end of the file. Outside the file, it has failed.
+    // Returns a cursor from this address to the end of the file. For an address outside the file,
+    // the cursor has failed.
     [[nodiscard]] Cursor at(std::uint64_t address) const {
         if (address > all.size() || base > all.size() - address) {
             Cursor outside;
@@ -31,7 +32,7 @@ struct Hdf5Bytes {
         return cursor.number(offset_bytes);
     }
     [[nodiscard]] std::uint64_t length(Cursor& cursor) const { return cursor.number(length_bytes); }
-    // Returns true for the address, all bits set, of a thing that the file does not have.
+    // Returns true if all bits of the address are set: the file does not have what it would name.
     [[nodiscard]] bool is_undefined(std::uint64_t address) const {
         return address == (~std::uint64_t{0} >> (64 - 8 * offset_bytes));
     }

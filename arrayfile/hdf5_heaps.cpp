@@ -171,8 +171,8 @@ Result<std::span<const std::byte>> FractalHeap::object(
     return *data;
 }
 
-// Finds an object that has its own place in the file. A long identifier has the place; a short one
-// has a number, which a B-tree leads to the place.
+// Finds an object that has its own place in the file. A long identifier holds the place. A short
+// identifier holds a number, for which a B-tree gives the place.
 std::optional<std::span<const std::byte>> FractalHeap::huge(Cursor identifier) const {
     const std::size_t place_bytes = file_.offset_bytes + file_.length_bytes;
     std::uint64_t address = 0, length = 0;
@@ -198,7 +198,7 @@ std::optional<std::span<const std::byte>> FractalHeap::huge(Cursor identifier) c
 }
 
 // Finds the direct block that has this offset. The blocks of a heap double in size from row to row;
-// those above the largest direct block are indirect blocks, which have rows of their own.
+// blocks larger than the largest direct block are indirect blocks, which have rows of their own.
 std::optional<std::span<const std::byte>> FractalHeap::managed(std::uint64_t offset,
                                                                std::uint64_t length) const {
     std::uint64_t address = root_, block_bytes = start_bytes_;

@@ -23,8 +23,8 @@ struct Hdf5Link {
 [[nodiscard]] Result<std::vector<Hdf5Link>> links_of(const Hdf5Bytes& file,
                                                      std::span<const HeaderMessage> header);
 
-// Returns the objects of a fractal heap whose identifiers are in the records of a tree, at this
-// place of each record.
+// Returns objects of a fractal heap. The records of a tree hold the identifiers of these objects,
+// at this place of each record.
 [[nodiscard]] Result<std::vector<std::span<const std::byte>>> heap_objects(
     const Hdf5Bytes& file, std::uint64_t heap, std::uint64_t tree, std::size_t identifier_at);
 

@@ -112,7 +112,8 @@ class TreeReader {
             }
         }
         if (Status read = read_storage(file_, header, array); !read) {
-            // Another array may be readable, so report this one only when it is wanted.
+            // Report an array that is not supported only when it is wanted, because other arrays
+            // may be readable.
             if (read.error().code != ErrorCode::unsupported) return read;
             array.type.size = 0;
         }

@@ -21,10 +21,12 @@ struct Hdf5Type {
     ElementType element;  // of a plain type; `size` is right for every form
 };
 
-// Parses a datatype message. Types without a form here are `other`. Returns none for damage.
+// Parses a datatype message. Types that have no form here become `other`. Returns none for damaged
+// bytes.
 [[nodiscard]] std::optional<Hdf5Type> parse_type(std::span<const std::byte> message, int depth = 0);
 
-// Parses a dataspace message. Returns none for damage. A null space has one dimension of size 0.
+// Parses a dataspace message. Returns none for damaged bytes. A null space has one dimension of
+// size 0.
 [[nodiscard]] std::optional<std::vector<std::uint64_t>> parse_shape(
     const Hdf5Bytes& file, std::span<const std::byte> message);
 

@@ -39,7 +39,7 @@ struct CheckOptions {
 
 [[nodiscard]] Result<CheckReport> check(const Plan& plan, const CheckOptions& options);
 
-// Writes the record of a task. If it is the last one that its directory lacked, writes the
+// Writes the record of a task. If the record's directory then has all of its records, writes the
 // directory's summary, too.
 [[nodiscard]] Status keep_record(const Plan& plan, const Record& record);
 

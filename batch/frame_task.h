@@ -1,8 +1,8 @@
 // batch/frame_task.h -- makes the mosaics of an hour from the grids of the grid tasks.
 //
-// The task makes frames only if all of its grid tasks have a record, in whatever order the engine
-// starts tasks. It keeps an existing frame if the frame was made from the partials that the cache
-// has now. (A partial is one site's grid on the cells of the mosaic.)
+// The engine may start tasks in any order, so a frame task makes frames only if all of its grid
+// tasks have a record. The task keeps an existing frame if the frame was made from the partials
+// that the cache has now. (A partial is one site's grid on the cells of the mosaic.)
 //
 // Threads   One task at a time in a process, because Usage measures the whole process.
 // Errors    unmet, naming the first grid task that is not done; those of the cache and of making

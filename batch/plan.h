@@ -1,10 +1,10 @@
 // batch/plan.h -- the file of a plan: a line for each task that helps to make an archive of grids.
 //
 // PLAN/plan.jsonl has one JSON document on each line. The first line holds the recipe. Each further
-// line is a task. Blanks make all of these lines equally long, so that a program finds task N
-// without reading the others. docs/guides/batch.md lists the fields. Grid tasks come first, by day
-// and then station; then frame tasks, by hour; then statistics tasks, by month and hour of the day.
-// The same source, range and recipe give the same bytes.
+// line is a task. Blanks make all lines equally long, so that a program finds task N without
+// reading other lines. docs/guides/batch.md lists the fields. Grid tasks come first, by day and
+// then station; then frame tasks, by hour; then statistics tasks, by month and hour of the day. The
+// same source, range and recipe give the same bytes.
 //
 // Threads   Many threads may read a plan.
 // Errors    not_found, corrupt, io; bad_argument for a number without a task.

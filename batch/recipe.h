@@ -37,18 +37,18 @@ struct Recipe {
     int nx = 460, ny = 460;
     std::vector<double> levels_m;  // empty: the default 32
 
-    // Returns the name of the domain in the cache that holds the grids of a station.
+    // Returns the name of the cache's domain that holds the grids of a station.
     [[nodiscard]] std::string domain_of(const std::string& station) const;
-    // Returns the time by which volumes that the frames need may begin before `from` or after `to`.
+    // Returns how long before `from`, or after `to`, a volume that the frames need may begin.
     [[nodiscard]] std::chrono::milliseconds margin() const;
-    // Returns the recipe as options for gridding an archive in one moment.
+    // Returns the recipe as options for gridding an archive, with only the first moment.
     [[nodiscard]] pipeline::ArchiveOptions archive_options(int threads) const;
 };
 
 [[nodiscard]] bool is_address(const std::string& source);  // true for the URL of a bucket
 
 [[nodiscard]] nlohmann::ordered_json json_of(const Recipe& recipe);
-// Reads a recipe. Errors: corrupt for a document of another form.
+// Reads a recipe. Errors: corrupt for a document that is not a recipe.
 [[nodiscard]] Result<Recipe> recipe_of(const nlohmann::ordered_json& json);
 
 // Returns a hash of the recipe and the software version. A record with another hash is from another

@@ -77,7 +77,7 @@ Record read_fields(const Json& json) {
     record.grids = json.at("grids");
     record.digest = json.at("digest");
     record.notes = reasons_of(json.at("notes"));
-    // Records of frames that were written before 2026-11-29 lack this list.
+    // A record of frames lacks this list if the record was written before 2026-11-29.
     if (json.contains("left_out")) record.left_out = reasons_of(json.at("left_out"));
     record.started = parse_utc(json.at("started").get<std::string>(), {}).value();
     record.ended = parse_utc(json.at("ended").get<std::string>(), {}).value();

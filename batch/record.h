@@ -1,7 +1,8 @@
 // batch/record.h -- the result of a task, in a file that appears when the task is done.
 //
-// PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records. Once
-// it has all of them, it also has their sum (batch/check.h). docs/guides/batch.md lists the fields.
+// PLAN/tasks/00012/12345.json is the record of task 12345; a directory has a thousand records. A
+// directory that has all of its records also has their sum (batch/check.h). docs/guides/batch.md
+// lists the fields.
 //
 // A record appears by rename. If two runs of a task overlap, the record written later replaces the
 // other; both runs make the same grids.

@@ -262,7 +262,7 @@ Result<BroughtFiles> fetch_files(const Recipe& recipe, const StationDay& what, c
     if (!report) return pass_on(report);
     if (report->stopped) return fail(ErrorCode::busy, "stopped while files were fetched");
     // If the bucket lists a file but refuses it, leave the file out, because another try would not
-    // help. After any other failure, fail, because another try may succeed.
+    // help. Return every other failure, because another try may succeed.
     std::vector<pipeline::LeftOut> refused;
     for (const fetch::FetchFailure& failure : report->failures) {
         if (!failure.is_refused) {

@@ -2,8 +2,8 @@
 //
 // Threads   Functions without state.
 // Errors    Those of listing the cache and of reading its files. A grid does not count if its
-//           header is damaged, if it has another shape, or if another version of this software made
-//           it.
+//           header is damaged, if its shape is not the shape in the recipe, or if another version
+//           of this software made it.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct StandingGrid {
     std::filesystem::path path;
 };
 
-// Returns the grids of the task that exist, by moment and then time. For a task of statistics,
+// Returns the existing grids of the task, by moment and then time. For a task of statistics,
 // returns its file of counts if that file can be read.
 [[nodiscard]] Result<std::vector<StandingGrid>> grids_standing(const cache::StoreReader& store,
                                                                const Plan& plan, const Task& task);
@@ -39,8 +39,8 @@ struct StandingGrid {
 [[nodiscard]] Status check_stands(const cache::StoreReader& store, const Plan& plan,
                                   const Task& task, const Record& record);
 
-// Returns true if the grid's bytes fit its checksum, and for every file of counts, without reading
-// it.
+// Returns true if the grid's bytes fit its checksum. Returns true for every file of counts, without
+// reading the file.
 [[nodiscard]] Result<bool> is_sound(const StandingGrid& grid);
 // If the task has damaged grids, removes the record of the task and then these grids.
 [[nodiscard]] Status remove_damaged(const cache::StoreReader& store, const Plan& plan,

@@ -39,7 +39,8 @@ void add(const Totals& more, Totals& all);
 
 // Returns the totals as JSON. They must include at least one record.
 [[nodiscard]] nlohmann::ordered_json json_of(const Totals& totals);
-// Reads totals. Throws the exceptions of nlohmann::json if a field is missing or has another type.
+// Reads totals. Throws the exceptions of nlohmann::json if a field is missing or has the wrong
+// type.
 [[nodiscard]] Totals totals_of(const nlohmann::ordered_json& json);
 
 }  // namespace stormcellar::batch
