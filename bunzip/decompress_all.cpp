@@ -30,9 +30,9 @@ void decompress_all(std::span<Job> jobs, std::size_t limit, std::span<Workspace>
         for (std::size_t i = 1; i < workspaces.size() && i < jobs.size(); ++i)
             threads.emplace_back(work, std::ref(workspaces[i]));
     } catch (const std::system_error&) {
-        // The system has no more threads, so the present threads do the work.
+        // The system has no more threads, so the existing threads do the work.
     } catch (const std::bad_alloc&) {
-        // There is no memory for more threads, so the present threads do the work.
+        // There is no memory for more threads, so the existing threads do the work.
     }
     work(workspaces.front());
     for (std::thread& thread : threads)

@@ -2,15 +2,15 @@
 //
 // A single walk waits for memory at each step, because a link gives the place of the next link,
 // anywhere in 3.6 MB. So sixteen walks run side by side. First, rows spread over the block are
-// marked: a bit and a number replace the link of the row, which is stored elsewhere. Each walk goes
-// from a marked row to the next marked row that it meets, and then begins again at another marked
-// row. These walks read the segments of the block; the marks, followed from the origin, give the
-// order of the segments. docs/bunzip.md has a drawing and a proof.
+// marked: the link of each such row is stored elsewhere, and a bit and a number take its place.
+// Each walk goes from a marked row to the next marked row that it meets, and then begins again at
+// another marked row. These walks read the segments of the block; the marks, followed from the
+// origin, give the order of the segments. docs/bunzip.md has a drawing and a proof.
 //
 // Each walk has room for an eighth of the block and 8 KiB. If that is too little, a single walk
 // reads the block, as in libbz2. Only a stream made for this purpose needs more room. The marks are
-// at uneven distances, because in data with a period evenly spaced marks would be close together
-// along the links.
+// at uneven distances, because evenly spaced marks would be close together along the links if the
+// data have a period.
 //
 // Memory    1.9 MB.
 // Threads   One thread at a time.

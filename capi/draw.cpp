@@ -89,7 +89,7 @@ Status draw(PictureWish wish, const std::string& name, const grid::BrickView& vi
     return {};
 }
 
-// An empty name stands for those of the stations.
+// An empty name stands for the names of the stations.
 Status draw_cells(PictureWish wish, std::string name, const grid::Grid& cells,
                   stormcellar_picture** picture) {
     const auto bricks = grid::BrickGrid::from(cells, grid::default_quantization(cells.moment),

@@ -12,7 +12,7 @@
 namespace stormcellar::capi {
 namespace {
 
-// Returns how many whole cells hold the sites and what they see beyond.
+// Returns how many whole cells hold the sites and the air that the sites see around them.
 int cells_beyond(double half_extent_m, double spacing_m) {
     const double cells = 2 * std::ceil((half_extent_m + grid::seen_beyond_sites_m) / spacing_m);
     constexpr auto most = static_cast<double>(std::numeric_limits<int>::max());

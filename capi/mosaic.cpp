@@ -12,7 +12,8 @@
 namespace stormcellar::capi {
 namespace {
 
-// Returns the objects as a span. Errors: bad_argument if there are none, or if one is null.
+// Returns the objects as a span. Errors: bad_argument if there is no object, or if an object is
+// null.
 template <class Object>
 Result<std::span<const Object* const>> all_of(const Object* const* objects, std::size_t count,
                                               std::string_view name) {
