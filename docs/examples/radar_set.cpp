@@ -1,5 +1,5 @@
 // Does what the storage-broker client of the 2008 paper did, under its names: lists the files of
-// each station of a catalog in a period, names the oldest one, and gets and reads each file.
+// each station of a catalog in a period, names the oldest file, and gets and reads each file.
 #include <cstdio>
 
 #include <stormcellar/catalog/radar_set.h>
