@@ -47,7 +47,7 @@ stormcellar_package(PkgConfig::hdf5 pkg_check_modules hdf5 REQUIRED IMPORTED_TAR
 stormcellar_package(PkgConfig::hwy pkg_check_modules hwy REQUIRED IMPORTED_TARGET libhwy)
 if(STORMCELLAR_GRIB)
   stormcellar_package(PkgConfig::eccodes pkg_check_modules eccodes REQUIRED IMPORTED_TARGET eccodes)
-  # eccodes.pc of Debian 12 names a directory that does not exist. Its headers are in the usual one.
+  # eccodes.pc of Debian 12 names a directory that does not exist. The headers are in the usual directory.
   set_target_properties(PkgConfig::eccodes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
 endif()
 if(STORMCELLAR_VDB)

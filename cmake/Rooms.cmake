@@ -1,8 +1,8 @@
 # Compiles the sources of a target in batches of sixteen, each batch as one source.
 function(stormcellar_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
-  # Do not warn if a local name hides a name of another file of the batch. gcc still warns if it hides another
-  # local name.
+  # Do not warn if a local name hides a name of another file of the batch. gcc still warns if a local name hides
+  # another local name.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 endfunction()
 
@@ -11,7 +11,7 @@ endfunction()
 #
 # Declares the static library of a room (a directory of the project): target stormcellar_NAME, alias
 # stormcellar::NAME. Installs the room's public headers, include/stormcellar/NAME, unless WITHOUT_HEADERS is given.
-# A room that is ALONE uses neither other rooms nor fmt, and so not the common precompiled headers. If
+# A room that is ALONE uses neither other rooms nor fmt, so it cannot use the common precompiled headers. If
 # STORMCELLAR_PRECOMPILE is on, a room with BATCHES is compiled in batches and with less optimization, except for
 # the directories named by SINGLY, whose code takes most of the time at run time.
 function(stormcellar_room name)
