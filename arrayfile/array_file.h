@@ -97,7 +97,7 @@ struct Array {
     Attributes attributes;
     Storage storage;
 
-    // Returns the number of elements, or none if it does not fit.
+    // Returns the number of elements, or none if the number does not fit into 64 bits.
     [[nodiscard]] std::optional<std::uint64_t> count() const;
 };
 

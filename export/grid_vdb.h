@@ -12,8 +12,8 @@
 // units, the time, the place of the center and the projection.
 //
 // OpenVDB is in the module stormcellar_vdb.so, which is loaded when the first file is written. The
-// file is made in memory. Voxels and file need at most twice the memory of the grid, a storm far
-// less.
+// file is made in memory. Voxels and file need at most twice the memory of the grid. A grid with a
+// storm needs far less.
 //
 // Units     Meters and the moment's unit.
 // Threads   Any thread may call.

@@ -43,7 +43,8 @@ class Hdf5Builder {
     // At most most_hdf5_numbers numbers.
     void numbers(const char* name, std::span<const double> values);
 
-    // Writes a dataset of `rows` rows into the current group. Attributes then belong to it.
+    // Writes a dataset of `rows` rows into the current group. Attributes then belong to the
+    // dataset.
     void codes(const char* name, std::size_t rows, std::span<const std::uint8_t> values);
     void codes(const char* name, std::size_t rows, std::span<const std::uint16_t> values);
 

@@ -39,7 +39,7 @@ struct NetcdfMap {
     UtcTime time;                   // end of the span, if there is one
     std::optional<UtcTime> since;   // start of the span of a product over time
     std::string name;               // of the variable
-    CfAttributes attributes;        // of the variable; those that place it are added
+    CfAttributes attributes;        // of the variable; attributes of place are added
     std::span<const float> values;  // NaN in a column without a value
     std::span<const signed char> states;
     std::vector<MapFlag> flags;

@@ -31,8 +31,8 @@ class NetcdfBuilder {
     static constexpr int file = -1;
 
     // Makes a group in the root of the file. From then on the builder writes into this group:
-    // `file` then means the group, and only its own variables can be written. Dimensions of the
-    // root can be used in it.
+    // `file` then means the group, and only its own variables can be written. Variables of
+    // the group can use dimensions of the root.
     void group(const char* name);
 
     // Makes a dimension. As in netCDF, a size of 0 makes an unlimited dimension, which is empty at
@@ -53,8 +53,8 @@ class NetcdfBuilder {
     void numbers(int variable, const char* name, std::span<const double> values);
     void bytes(int variable, const char* name, std::span<const signed char> values);
 
-    // Writes a whole variable. netCDF converts the numbers to its type. Does nothing if there are
-    // no values.
+    // Writes a whole variable. netCDF converts the numbers to the type of the variable. Does
+    // nothing if there are no values.
     void write(int variable, std::span<const double> values);
     void write(int variable, std::span<const float> values);
     void write(int variable, std::span<const int> values);

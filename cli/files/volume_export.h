@@ -20,7 +20,8 @@ struct VolumeExportOptions {
     bool own_ranges = false;  // gives each gate geometry its own range axis
 };
 
-// Adds --format and --own-ranges, for every command that writes volumes. Both need `needed`.
+// Adds --format and --own-ranges, for every command that writes volumes. Both options need the
+// option `needed`.
 void add_volume_export_options(CLI::App& app, VolumeExportOptions& options, CLI::Option* needed);
 
 // Returns the format that the options name, else that of the file name, else the default.

@@ -24,8 +24,8 @@ struct MosaicOptions {
 void add_mosaic_options(CLI::App& app, MosaicOptions& options, EffectOptions& effects);
 
 // Parses the options for one moment. Averaging keeps its default here, because --effect sets it.
-// Errors: bad_argument, naming the option; this includes an option that needs several files if
-// there is only one.
+// Errors: bad_argument, naming the option; also for an option that needs several files if there is
+// only one file.
 [[nodiscard]] Result<grid::MosaicOptions> parse_mosaic(const MosaicOptions& options,
                                                        const EffectOptions& effects,
                                                        std::size_t files,

@@ -23,8 +23,8 @@ void add_surface_options(CLI::App& app, SurfaceOptions& options);
 
 // Returns the surfaces for a grid of these moments, with the colors of the moment's default table.
 // The outermost comes first. Reflectivity has surfaces by default. Errors: bad_argument for options
-// that the format does not take, for several moments, and for values that are no numbers or
-// missing.
+// that the format does not take, for several moments, for missing values, and for values that are
+// not numbers.
 [[nodiscard]] Result<grid_export::GridFormatOptions> parse_surfaces(
     const SurfaceOptions& options, const grid_export::GridFormat& format,
     std::span<const level2::Moment> moments);

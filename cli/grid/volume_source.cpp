@@ -54,7 +54,7 @@ grid::SourceWish wish_of(const GridRequest& request, const ChooseCuts& choose_cu
         .how_to_place = how_to_place,
         .threads = request.threads};
     if (retrieve::must_derive(wish.moments, request.derived) || request.assumed_zero_c_m) {
-        wish.choose_cuts = {};  // all cuts help to dealias and to judge one
+        wish.choose_cuts = {};  // all cuts help to dealias and to judge a cut
         wish.needs_all_moments = request.derived.quality > 0 || request.assumed_zero_c_m;
         wish.derive = [&request](level2::Volume& volume) { return complete(request, volume); };
     }

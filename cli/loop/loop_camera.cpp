@@ -30,8 +30,8 @@ Camera orbiting(const LoopScene& shown, double by_deg) {
     return render::turned(shown.view, by_deg, shown.scene.curved_earth);
 }
 
-// Returns the camera with a position. A camera without one is placed at the distance of the fitted
-// view.
+// Returns the camera with a position. A camera without a position is placed at the distance of the
+// fitted view.
 Camera placed(const LoopScene& shown, const Camera& camera) {
     if (camera.eye || camera.look_at) return camera;
     render::FittedView view = shown.view;

@@ -26,7 +26,7 @@ struct Drawing {
     RotationTrack track;                      // of the frames so far, for a product over time
     std::optional<StoredCells> cells;         // storm cells to mark
     std::optional<cache::StoreReader> store;  // has the grids of the radars of a mosaic
-    bool lacks_hail = false;                  // of single radars, which was noted
+    bool lacks_hail = false;                  // of single radars; a note has said so
     std::optional<render::ShapeOverlay> shapes;
 };
 

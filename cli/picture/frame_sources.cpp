@@ -34,8 +34,8 @@ Result<std::optional<UtcTime>> until_of(const FrameOptions& options) {
     return std::optional{*time};
 }
 
-// Returns the newest grid of the domain at or before the time: a grid of this moment, or of any if
-// none is given. Returns none if there is no such grid.
+// Returns the newest grid of the domain at or before the time: a grid of this moment, or of any
+// moment if `moment` is none. Returns none if there is no such grid.
 Result<std::optional<cache::StoreEntry>> find_grid(const cache::StoreReader& store,
                                                    const FrameOptions& options,
                                                    std::optional<level2::Moment> moment) {

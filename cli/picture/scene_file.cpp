@@ -157,7 +157,7 @@ void read_row(const PictureOption& row, TomlTable& table, const std::filesystem:
     }
 }
 
-// Reads the moments of a picture with several panels. Each has its own colors.
+// Reads the moments of a picture with several panels. Each moment has its own colors.
 void read_panels(TomlTable& picture, SceneOptions& scene) {
     const auto names = picture.texts("panels");
     if (!names) return;

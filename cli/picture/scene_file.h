@@ -51,8 +51,8 @@ struct SceneFile {
 // if the file alone causes the error, or "why (beside --scene FILE)" if options may have caused it.
 [[nodiscard]] Result<render::Scene> scene_with(const SceneFile& file, const SceneOptions& options);
 
-// Adds --scene to a subcommand. It must be the first option added, so that the other options are
-// applied after the file and override it. If `loop` is null, [loop] is checked and ignored. The
+// Adds --scene to a subcommand. --scene must be the first option added, so that the other options
+// are applied after the file and override it. If `loop` is null, [loop] is checked and ignored. The
 // other arguments must outlive the parse.
 void add_scene_file(CLI::App& app, SceneFile& file, SceneOptions& scene, PicturePlanOptions& plan,
                     LoopSettings* loop);

@@ -30,7 +30,7 @@ struct OptionReference {
                                        // "FILE...|DOMAIN"
     std::string value;                 // "FILE" (value_words.h); empty: a flag
     std::vector<std::string> choices;  // the allowed values; none: any
-    std::vector<std::string> offers;   // usual values of an option that accepts others, too
+    std::vector<std::string> offers;   // usual values; the option takes other values, too
     Kept kept = Kept::files;           // where to find the values that are not listed
     std::string range;                 // "1 to 1000000"; empty: none
     std::string initial;               // the default; empty: none, or given in the description

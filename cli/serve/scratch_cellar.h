@@ -1,5 +1,5 @@
 // cli/serve/scratch_cellar.h -- makes a catalog and a cache in a temporary directory from the files
-// of a command line. They are the same as those that stormcellard would make.
+// of a command line. Both are the same as stormcellard would make.
 //
 // The raw files are read in place. The destructor removes the directory.
 //

@@ -29,8 +29,8 @@ struct TimeRange {
 [[nodiscard]] Result<TimeRange> parse_time_range(const TimeRangeOptions& options);
 
 // Prints the document on stdout, indented by two spaces. Writes characters beyond ASCII as \uXXXX.
-// This means the same to a program, and keeps names from controlling a terminal. Replaces bytes
-// that are not UTF-8 by U+FFFD.
+// Such escapes mean the same to a program, and keep names from controlling a terminal. Replaces
+// bytes that are not UTF-8 by U+FFFD.
 void print_json(const nlohmann::json& document);
 
 // Warns on stderr if the newest time that is shown is too far in the future (is_believed()).

@@ -35,7 +35,7 @@ struct Packing {
 
 struct PackedMoment {
     std::optional<SweepMoment> moment;  // none if no gate was measured
-    std::uint64_t gaps = 0;             // gates without a measurement between others
+    std::uint64_t gaps = 0;             // gates without a measurement between measured gates
     std::uint64_t beyond = 0;           // values that no code can express; given as not measured
 };
 

@@ -93,14 +93,14 @@ struct ConfiguredPlace {
 struct ThreddsConfig {
     std::vector<ConfiguredCollection> collections;  // never empty
     std::vector<ConfiguredPlace> places;
-    std::vector<std::string> denied;  // a path below /thredds with such a prefix gets 403
+    std::vector<std::string> denied;  // prefixes of paths below /thredds that get 403
     bool operator==(const ThreddsConfig&) const = default;
 };
 
 struct WebLimits {
     int connections = 1024;
     int connections_of_an_address = 256;  // trusted proxies may use all connections
-    int event_streams = 2048;             // not counted as other connections
+    int event_streams = 2048;             // not counted in `connections`
     int event_streams_of_a_client = 64;
     std::uint64_t header_bytes = 32'768;
     std::chrono::seconds request{20};  // from opening or the last answer to the end of the headers

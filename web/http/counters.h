@@ -6,7 +6,7 @@
 //
 // Units     Seconds and bytes.
 // Threads   Doors, gauges and counters are added before the server starts. After that, many threads
-//           may use it; counting takes no lock.
+//           may use the object; counting takes no lock.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@
 
 namespace stormcellar::web {
 
-// The statuses that the server sends. All others are counted as status 0.
+// The statuses that the server sends. All other statuses are counted as status 0.
 inline constexpr std::array<unsigned, 22> counted_statuses = {
     200, 204, 206, 301, 302, 304, 308, 400, 403, 404, 405,
     406, 410, 412, 414, 416, 421, 429, 431, 500, 501, 503};
@@ -34,7 +34,7 @@ inline constexpr std::array<double, 9> counted_seconds = {0.0005, 0.002, 0.01, 0
 
 class Counters {
   public:
-    // Counts requests below this prefix ("/tiles") separately. All others count as "other";
+    // Counts requests below this prefix ("/tiles") separately. All other requests count as "other";
     // requests that could not be read count as "unread".
     void add_door(std::string prefix);
     // Add a gauge, which rises and falls, or a counter, which only rises. `name` is the name of the

@@ -2,7 +2,7 @@
 // server, so that a new server can replace the old one without closing a port, which another
 // program could take.
 //
-// Threads   Plain values. Many may share a socket.
+// Threads   Plain values. Many objects may share a socket.
 #pragma once
 
 #include <memory>

@@ -13,7 +13,7 @@ export interface StationPlace extends Place {
     newestGrid: string | null; // time of the newest grid
 }
 
-// Returns the stations whose position is known. Others are only in the list of domains.
+// Returns the stations whose position is known. Stations without a position are only in the list of domains.
 export function stationPlaces(stations: Station[]): StationPlace[] {
     return stations.flatMap((one) => {
         const { latitude_deg: latitudeDeg, longitude_deg: longitudeDeg } = one;

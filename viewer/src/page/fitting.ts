@@ -1,6 +1,6 @@
 // Fits the first view of a domain to its storms, as `stormcellar frame` does, unless the address names a view. The page
-// asks the server for the view while the grid is on its way, and waits for it only for a short time, so that a slow
-// answer does not hold back the first picture.
+// asks the server for the view while the grid is on its way, and waits for the view only for a short time, so that a
+// slow answer does not hold back the first picture.
 
 import { cameraOfFitted } from '../scene/fitted';
 import { boxOf } from '../scene/grid_box';

@@ -17,7 +17,7 @@ export interface Health {
 }
 
 // `ageS` is the age of the newest data, NaN without any. `silentS` is the time since a radar of the picture became
-// silent; null if none is.
+// silent; null if no radar of the picture is silent.
 export function healthOf(ageS: number, silentS: number | null, isCutOff: boolean): Health {
     const words = texts.health;
     if (isCutOff) return { level: 'silent', text: words.noServer };

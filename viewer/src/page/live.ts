@@ -101,7 +101,7 @@ export class Live {
         this.app.server.take(true, serverMs);
         this.app.server.takeSilences(silent);
     }
-    // Asks for all lists, which have the news of the stream, but later. Throws a TypeError if the list of silent
+    // Asks for all lists. They tell the same news as the stream, but later. Throws a TypeError if the list of silent
     // stations does not come within mostQuietMs. Does not wait for pictures, which may take longer.
     private async doWithout(): Promise<void> {
         await Promise.race([this.askSilences(), pause(mostQuietMs).then(noAnswer)]);

@@ -24,7 +24,8 @@ export class Budget {
         this.mostWhole = Math.floor(0.1 * bytes);
     }
 
-    // Divides the memory for grids in parts among panes. Returns false if it is divided so already.
+    // Divides the memory for grids in parts among panes. Returns false if the memory is already divided among this many
+    // panes.
     divide(panes: number): boolean {
         const isOther = panes !== this.panes;
         this.panes = panes;

@@ -77,7 +77,7 @@ export class NamesOver {
         pen.scale(scale, scale);
         const grain = pixelRatio() * scale;
         if (hasGround) taken.push(...drawHeightScale(pen, geometry, units, taken, grain));
-        // Labels of shapes leave room for the names of sites, and take it from the other names.
+        // Labels of shapes leave room for the names of sites, and take room from the other names.
         const [sites, others] = [true, false].map((isSite) =>
             hasGround ? drawing.ground.marks.filter(({ kind }) => (kind === 'site') === isSite) : [],
         ) as [Mark[], Mark[]];

@@ -105,7 +105,7 @@ export class News {
               )
             : () => false;
         app.loader.forgetAll(isOld);
-        // A surface may be of another moment, and panes are.
+        // A surface may be of another moment than the shown grid, and so may panes.
         const isShown = allPanes(app.state).some((pane) => [pane.moment, pane.layers.surface?.moment].includes(moment));
         if (moment === undefined || !this.isPartOfShown(domain) || !isShown) return;
         if (domain !== app.state.domain) return this.takeNewsOfSite(changedTime);

@@ -96,8 +96,8 @@ export class Pane implements LayerSource {
         this.own = shown;
     }
 
-    // Fetches the grid beside `next` and the data of its layers. Returns null if all of them are here, or if they are
-    // not there. `geometryOf` returns the camera for a grid.
+    // Fetches the grid beside `next` and the data of its layers. Returns null if all of them are here, or if the
+    // server lacks them. `geometryOf` returns the camera for a grid.
     alongside(next: Shown, isAhead: boolean, geometryOf: (loaded: LoadedGrid) => ViewGeometry): Promise<void> | null {
         const { moment } = this.state;
         if (!this.isInDomain) return null;

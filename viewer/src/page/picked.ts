@@ -182,8 +182,8 @@ export function pick(drawing: Drawing, left: number, top: number, asks: boolean,
         place: planeOf(grid).toPlace(seen.at),
         lacksCells:
             !cells && isAlong && layer !== 'outside' && (isThrough || layer === 'maximum' || layer === 'ground'),
-        // A section, a plane and the maximum are read from the cells that are drawn, all others from cells along the
-        // ray.
+        // A section, a plane and the maximum are read from the cells that are drawn; all other layers are read from
+        // cells along the ray.
         halvings:
             layer === 'sweep'
                 ? 0

@@ -8,7 +8,8 @@ export function span(seconds: number): string {
     const [minutes, hours] = [seconds / 60, seconds / 3600];
     return minutes < 90 ? `${Math.max(0, Math.round(minutes))} min` : `${Math.round(hours)} h`;
 }
-// Returns a time in the time zone of the browser, with its date if that is another than in UTC; empty in UTC itself.
+// Returns a time in the time zone of the browser, with its date if the date differs from the date in UTC; empty in UTC
+// itself.
 export function localText(timeMs: number): string {
     const time = new Date(timeMs);
     if (time.getTimezoneOffset() === 0) return '';

@@ -13,7 +13,7 @@ export interface Frame {
     isNearest: boolean; // cells are not interpolated
     opacity: number;
     table: ColorTable;
-    leastValue: number; // values below it are not shown
+    leastValue: number; // smaller values are not shown
     hasVolume: boolean;
     hasGround: boolean;
     layers?: DrawnLayers | null;

@@ -53,7 +53,7 @@ export class GridTextures {
         for (const pool of pools) this.release(pool);
     }
 
-    // Releases the textures of all other grids but those that are shown or needed.
+    // Releases the textures of all grids that are neither shown nor needed.
     keepOthers(needed: readonly (LoadedGrid | null | undefined)[]): void {
         for (const [loaded, uploaded] of this.uploaded) {
             if (needed.includes(loaded) || this.shown.includes(loaded)) continue;

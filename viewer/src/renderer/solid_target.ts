@@ -1,4 +1,5 @@
-// Holds the solid layers of a picture: the color and the depth of the nearest. Rays through the volume end there.
+// Holds the solid layers of a picture: the color and the depth of the nearest layer at each pixel. Rays through the
+// volume end there.
 
 export class SolidTarget {
     readonly color: WebGLTexture;

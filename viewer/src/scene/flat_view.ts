@@ -9,7 +9,7 @@ import { ViewState, usualState } from './view_state';
 // The parts of a view of which 2D and 3D have their own: the camera, and the layers of each pane.
 export type Stance = Pick<ViewState, 'camera' | 'moment' | 'layers' | 'least' | 'colors' | 'panes' | 'active'>;
 
-// Return camera and layers for a first look in 2D or 3D. The look is at the same place as in the other one.
+// Return camera and layers for a first look in 2D or 3D. The look is at the same place as before the switch.
 function firstCamera(camera: Camera, isFlat: boolean): Camera {
     const { zoom, lookAtM } = camera;
     return isFlat ? namedView(camera, 'top') : { ...usualState.camera, zoom, lookAtM };

@@ -225,7 +225,7 @@ export function beyondCommand(
 }
 
 // Returns the arguments of `stormcellar frame` for the first of section, plane, sweep and maximum that is on; null if
-// the volume is on or none of these is.
+// the volume is on or none of these layers is on.
 export function productOf(layers: Layers): string[] | null {
     if (layers.hasVolume) return null;
     if (layers.section) return ['--product', 'section', '--section', sectionText(layers.section)];

@@ -20,7 +20,7 @@ export interface Transfer {
 
 export interface Shown {
     opacity: number; // scales the table's extinction
-    least: number; // values below it are clear
+    least: number; // smaller values are clear
 }
 
 export interface Bins {

@@ -67,7 +67,8 @@ export function shownUnit(stored: string, units: Units): ShownUnit {
     return { symbol: stored === '1' ? '' : stored, perStored: 1 };
 }
 
-// Returns a value with its unit as text. A converted value has at most one decimal, and any other at most `digits`.
+// Returns a value with its unit as text. A converted value has at most one decimal, and any other value has at most
+// `digits`.
 export function valueText(value: number, stored: string, units: Units, digits = 2): string {
     const { symbol, perStored } = shownUnit(stored, units);
     const number = Number((value * perStored).toFixed(perStored === 1 ? digits : 1));

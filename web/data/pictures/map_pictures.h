@@ -34,7 +34,7 @@ struct MapPicturesOptions {
     std::shared_ptr<Grids> grids;
     std::shared_ptr<SweepPictures> sweeps = {};  // null: no sweeps are drawn
     std::shared_ptr<RainTotals> rain = {};       // null: made of `grids`
-    // Keeps the pictures. Others may share this object.
+    // Keeps the pictures. Other owners may share this object.
     std::shared_ptr<KeptAnswers> kept = std::make_shared<KeptAnswers>(32'000'000);
     std::uint64_t map_bytes = 32'000'000;  // for the 2D products from which pictures are drawn
     int threads = 1;                       // for making one product of a grid

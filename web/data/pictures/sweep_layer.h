@@ -22,8 +22,8 @@ struct SweepLayer {
 
 [[nodiscard]] bool is_sweep_layer(std::string_view name);
 
-// Returns true for the options that such a layer takes as parameters: colors, elevation, sweep,
-// dealias, storm-motion, quality, and for HCA freezing-levels.
+// Returns true for the options that a layer of sweeps takes as parameters: colors, elevation,
+// sweep, dealias, storm-motion, quality, and for HCA freezing-levels.
 [[nodiscard]] bool is_of_sweep_layers(const render::PictureOption& option);
 
 // Reads the layer. Gates are never smoothed. Errors: not_found for an unknown moment; bad_argument

@@ -18,7 +18,7 @@ namespace stormcellar::web {
 namespace {
 
 // Decodes the sweep that a panel shows. The picture names the volume and not the file, whose name
-// may differ between machines. All panels are drawn on the plane of the first.
+// may differ between machines. All panels are drawn on the plane of the first panel.
 Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::string& file,
                                  std::optional<UtcTime> start, const render::PanelScene& panel,
                                  const retrieve::DerivedOptions& derived,
@@ -31,7 +31,7 @@ Result<PlacedSweep> decode_sweep(std::span<const std::byte> bytes, const std::st
         .threads = threads,
         .start = start};
     if (retrieve::must_derive(source_wish.moments, derived)) {
-        source_wish.choose_cuts = {};  // all cuts help to dealias and to judge one
+        source_wish.choose_cuts = {};  // all cuts help to dealias and to judge a cut
         source_wish.needs_all_moments = derived.quality > 0;
         source_wish.derive = [&](level2::Volume& volume) -> Result<std::vector<std::string>> {
             auto made = retrieve::add_derived_moments(volume, source_wish.moments, derived);

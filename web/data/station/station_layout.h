@@ -52,7 +52,7 @@ struct SweepArray {
 // Returns none if the place has no such array with times.
 [[nodiscard]] std::optional<SweepArray> sweep_array_of(const SweepPlace& place,
                                                        std::string_view name);
-// Returns the chunk of such an array, not compressed; none if it would have only fill values.
+// Returns the chunk of an array with times, not compressed; none if it would have only fill values.
 [[nodiscard]] std::optional<std::string> chunk_of(const level2::Sweep& sweep,
                                                   const SweepPlace& place, const SweepArray& array);
 

@@ -44,7 +44,7 @@ std::map<UtcTime, CatalogEntry> one_of_each_start(std::vector<CatalogEntry> entr
 }
 
 // Returns the volumes to learn from, by size, the largest first, each by start. Incomplete volumes
-// count only if there are no others.
+// count only if there are no complete volumes.
 using BySize = std::map<VolumeSize, std::vector<const CatalogEntry*>, std::greater<>>;
 BySize by_size(const std::map<UtcTime, CatalogEntry>& volumes) {
     const bool any_complete =

@@ -1,11 +1,12 @@
 // web/data/station/station_trees.h -- a station's volumes as a tree over time, made from the
 // catalog.
 //
-// Each scan pattern (VCP) of the station has its places (sweep_places.h). To learn them, the newest
-// and the oldest volume of each size are decoded. The first call for a station does this for all
-// sizes, later calls only for new ones. No other volume is decoded until its values are requested.
-// The tree has the newest `most_volumes` complete and partial volumes, one for each start. The
-// index of a volume along the time is its number in TimeNumbers, which it keeps.
+// Each scan pattern (VCP) of the station has its places (sweep_places.h). To learn the places, the
+// newest and the oldest volume of each size are decoded. The first call for a station does this for
+// all sizes, later calls only for new sizes. No other volume is decoded until its values are
+// requested. The tree has the newest `most_volumes` complete and partial volumes, one for each
+// start. The index of a volume along the time is its number in TimeNumbers. A volume keeps its
+// number.
 //
 // Threads   Many threads may use one object.
 // Errors    not_found: no catalog, no such station, or no volume that can be read; those of the
@@ -102,7 +103,7 @@ class StationTrees {
         std::set<VolumeSize> sizes = {};
         std::optional<StationFacts> facts = {};
     };
-    // Patterns by number; the unknown one comes last.
+    // Patterns by number; the unknown pattern comes last.
     using PatternKey = std::pair<bool, int>;
     using Volumes = std::map<UtcTime, catalog::CatalogEntry>;
     struct Station {

@@ -1,9 +1,9 @@
 // web/data/station/sweep_chunks.h -- makes the chunks of one sweep at its place.
 //
 // A place has a regular axis of azimuths, 0.25, 0.75 ... or 0.5, 1.5 ... degrees. Each azimuth has
-// the gates of the nearest radial, unless that is farther away than 0.75 of the spacing. Such an
-// azimuth has no values, and its states are no_data. The bytes are uncompressed and little-endian,
-// one row for each azimuth.
+// the gates of the nearest radial, unless that is farther away than 0.75 of the spacing. An azimuth
+// without a radial so near has no values, and its states are no_data. The bytes are uncompressed
+// and little-endian, one row for each azimuth.
 //
 // Units     Those of the moment; degrees; m/s; milliseconds since 1970 UTC.
 // Threads   Pure functions.

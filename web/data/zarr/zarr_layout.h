@@ -30,8 +30,8 @@ using zarr::ZarrVersion;
 
 inline constexpr std::size_t times_of_a_chunk = 4096;
 
-// Return the group for grids at `times` times: of their moment, or of a product of them. The grids
-// have the cells of `newest`.
+// Return the group for grids at `times` times: for the moment of the grids, or for a product of the
+// grids. The grids have the cells of `newest`.
 [[nodiscard]] ZarrGroup zarr_group(std::string_view domain, const cache::GridDescription& newest,
                                    std::size_t times);
 [[nodiscard]] ZarrGroup zarr_group_of_map(std::string_view domain,

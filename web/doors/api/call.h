@@ -112,8 +112,8 @@ using Answered = tl::expected<T, Answer>;
 [[nodiscard]] Answered<Kept> kept_or_made(const ApiCall& call, const std::string& key,
                                           const std::function<Result<Kept>()>& make);
 
-// Each of these functions reads a parameter. If it is absent, the function returns none or `usual`.
-// A number must be finite and within its limits.
+// Each of these functions reads a parameter. If the parameter is absent, the function returns none
+// or `usual`. A number must be finite and within its limits.
 [[nodiscard]] Result<std::optional<double>> number_parameter(const ApiCall& call,
                                                              std::string_view name, double least,
                                                              double most);

@@ -78,7 +78,7 @@ struct GridOfSweep {
                                 const MapPicture& picture,
                                 std::optional<std::chrono::seconds> max_age);
 
-// Clients may reuse an answer that depends only on a grid for this time, without asking again.
+// For this time, clients may reuse an answer that depends only on a grid, without asking again.
 inline constexpr std::chrono::seconds answer_holds_for{300};
 // Returns `answer_holds_for`. Returns none (the client must revalidate) if the grid was requested
 // as "latest" or may change, as do rain totals, whose older grids may be made again.

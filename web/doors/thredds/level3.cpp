@@ -75,7 +75,8 @@ class Level3Collection final : public ThreddsCollection {
     Result<std::vector<std::string>> station_ids() override;
 
   private:
-    // Names of files by their times. It cannot be copied, because a query may look up 10,000 times.
+    // Names of files by their times. The map cannot be copied, because a query may look up 10,000
+    // times.
     struct Times : std::map<UtcTime, std::string> {
         Times() = default;
         Times(const Times&) = delete;

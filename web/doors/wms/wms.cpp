@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::chrono::hours farthest_nearest{1};
 
-// Answers with a fault. For clients of 1.1.1, it has a media type of its own, by which they
-// recognize it.
+// Answers with a fault. For clients of 1.1.1, the answer has a media type of its own, by which they
+// recognize a fault.
 Answer fault_answer(const Request& request, const WmsFault& fault) {
     const bool is_older = wms_nearest_version(WmsParameters(request.query)) == WmsVersion::v1_1_1;
     XmlWriter xml;

@@ -70,7 +70,7 @@ function addQuality(app: App): void {
     put();
 }
 
-// Returns true if the shown grid is one that the server keeps, so that it can fit a view to it.
+// Returns true if the server keeps the shown grid, so that the server can fit a view to the grid.
 function isStored({ shown }: App): boolean {
     return shown !== null && !shown.isBetween && !isRegion(shown.domain);
 }

@@ -23,7 +23,8 @@ function copy(app: App, text: string, said: string, ...notes: string[]): void {
     );
 }
 
-// Saves the next fine picture. Names it by its own domain, moment and time, because others may be loading already.
+// Saves the next fine picture. Names the picture by its own domain, moment and time, because another picture may be
+// loading already.
 function save(app: App, drawing: Drawing): void {
     app.say(panelTexts.saving);
     drawing.whenFine(

@@ -88,7 +88,7 @@ class StillPage {
         document.documentElement.dataset['state'] = text;
     }
 
-    // Shows a moment of a domain at a time, or the nearest of each that the server has.
+    // Shows a moment of a domain at a time. If the server lacks one of the three, shows another that it has.
     private async choose(domain: string, moment: string, time: string): Promise<void> {
         const turn = ++this.turn;
         try {

@@ -16,7 +16,7 @@ const mostBoxes = 300; // of volumes; more would be too narrow to press
 const labelPx = 48; // room for a time of day
 const datedPx = 96; // room for a date and a time of day
 const patternPx = 22; // least width of a box with the number of its pattern
-const wordedPx = 58; // least width of a box that also has the word for it
+const wordedPx = 58; // least width of a box that also has the word for its pattern
 const sameVolumeMs = 15_000; // the time of a grid and of its volume differ a little
 
 export class TimeTracks {

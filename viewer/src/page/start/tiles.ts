@@ -15,7 +15,7 @@ interface Kept {
     tries: number;
 }
 
-// A composite that is drawn on the map, of a domain at the time of its newest grid.
+// A composite of a domain at the time of its newest grid, which is drawn on the map.
 export interface Picture {
     domain: string;
     time: string;
