@@ -47,8 +47,10 @@ stormcellar_package(PkgConfig::hdf5 pkg_check_modules hdf5 REQUIRED IMPORTED_TAR
 stormcellar_package(PkgConfig::hwy pkg_check_modules hwy REQUIRED IMPORTED_TARGET libhwy)
 if(STORMCELLAR_GRIB)
   stormcellar_package(PkgConfig::eccodes pkg_check_modules eccodes REQUIRED IMPORTED_TARGET eccodes)
-  # eccodes.pc of Debian 12 names a directory that does not exist. The headers are in the usual directory.
-  set_target_properties(PkgConfig::eccodes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+  # eccodes.pc of Debian 12 names a directory that does not exist, and puts a search path into what it links. The
+  # headers and the library are in the usual directories.
+  set_target_properties(PkgConfig::eccodes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "" INTERFACE_LINK_DIRECTORIES ""
+    INTERFACE_LINK_OPTIONS "" INTERFACE_LINK_LIBRARIES eccodes)
 endif()
 if(STORMCELLAR_VDB)
   # Debian's package has neither a CMake package nor a file for pkg-config.
