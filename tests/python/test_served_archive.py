@@ -28,12 +28,13 @@ if HAS_XARRAY:
 @contextlib.contextmanager
 def served(catalog):
     """Yields the address of a server of the catalog."""
-    command = [PROGRAM, "serve", "--catalog", catalog, "--listen", "127.0.0.1:0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
-        try:
-            yield server.stdout.readline().split()[-1].rstrip("/")
-        finally:
-            server.terminate()
+    with tempfile.TemporaryDirectory() as cache:
+        command = [PROGRAM, "serve", "--catalog", catalog, "--cache", cache, "--listen", "127.0.0.1:0"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+            try:
+                yield server.stdout.readline().split()[-1].rstrip("/")
+            finally:
+                server.terminate()
 
 
 @unittest.skipUnless(CAN_READ and DATA and PROGRAM,
