@@ -73,7 +73,7 @@ struct Filter {
     std::vector<std::uint32_t> parameters;
 };
 
-// Where the elements of an array are.
+// The place of an array's elements in the file.
 struct Storage {
     enum class Kind : std::uint8_t { none, contiguous, records, chunks } kind = Kind::none;
     enum class Index : std::uint8_t { tree, single, implicit, fixed_array } index = Index::tree;

@@ -1,7 +1,7 @@
 // arrayfile/cursor.h -- reads little-endian numbers of any width from untrusted bytes.
 //
-// As in base/byte_reader.h, a read past the end returns zero and sets failed(), after which all
-// reads return zero.
+// A read past the end returns zero and sets failed(). After that, all reads return zero, as in
+// base/byte_reader.h.
 //
 // Threads   A cursor is a plain value; do not share one between threads.
 #pragma once

@@ -56,7 +56,7 @@ void write_fields(const CfradialParts& parts);
 // Fails with bad_argument if the level is not 0 to 9.
 [[nodiscard]] Status check_deflate_level(const VolumeWriteOptions& options);
 
-// What distinguishes the two versions.
+// The facts that differ between the two versions.
 struct CfradialVersion {
     const char* conventions;
     const char* version;

@@ -30,7 +30,7 @@ struct UfField {
     int factor = 1;
 };
 
-// What all records of a file share.
+// The facts that all records of a file share.
 struct UfFile {
     const Volume& volume;
     std::vector<UfField> fields;
@@ -39,7 +39,7 @@ struct UfFile {
     UtcTime start;
 };
 
-// What all records of a sweep share.
+// The facts that all records of a sweep share.
 struct UfSweep {
     const Sweep& sweep;
     std::size_t number;                            // from 1

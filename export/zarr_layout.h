@@ -31,7 +31,7 @@ using ZarrJson = nlohmann::ordered_json;
 enum class ZarrVersion { two = 2, three = 3 };
 // Version 2 has no `text`.
 enum class ZarrNumber { float32, float64, int8, int16, int32, uint8, int64, text };
-// How chunks are compressed. Version 2 has only gzip.
+// The compression of chunks. Version 2 has only gzip.
 enum class ZarrPacking { gzip, zstd };
 
 struct ZarrArray {

@@ -1,7 +1,7 @@
 // grid/judge/held_out.h -- scores how well a grid that was made for an instant matches a volume
 // that the radar measured at that instant.
 //
-// Of three volumes in a row, the middle volume is held out. Each method of interpolation in time
+// The middle volume of three volumes in a row is held out. Each method of interpolation in time
 // (grid/mosaic/time_interpolation.h) reconstructs it from the other two volumes. So the errors
 // include the growth and decay of the echo and the noise of the gates, in the same way for each
 // method.

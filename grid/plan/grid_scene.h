@@ -37,7 +37,7 @@ struct SceneOptions {
     double beam_width_deg = 0;  // 0: beam_width_of() the site
     RefractivityProfile profile = RefractivityProfile::reference();
     int threads = 1;
-    // Of repeated sweeps, the sweep nearest to this time is used; none: the newest sweep.
+    // If sweeps repeat, uses the sweep nearest to this time; none: the newest sweep.
     std::optional<UtcTime> nearest_to = std::nullopt;
 };
 

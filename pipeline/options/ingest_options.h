@@ -48,7 +48,7 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{256} << 20;
     return (16 + 28 * moments) << 20;
 }
 
-// How much other work waits, which decides what living grids show at once.
+// The amount of waiting work, which decides what living grids show at once.
 enum class Load : std::uint8_t {
     light,  // living grids show every new sweep
     heavy,  // only low sweeps, because users look at them first

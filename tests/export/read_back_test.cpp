@@ -50,7 +50,7 @@ const SweepMoment* same_kind(const level2::Sweep& sweep, const SweepMoment& want
 std::int64_t differing_gates(const SweepMoment& a, const SweepMoment& b, bool is_odim) {
     std::int64_t differing = 0;
     const std::int32_t shift = (b.first_gate_m - a.first_gate_m) / a.gate_spacing_m;
-    // Of large sweeps, every seventh radial tells enough.
+    // Every seventh radial of a large sweep is enough.
     const std::size_t step = a.gate_counts.size() > 100 ? 7 : 1;
     for (std::size_t radial = 0; radial < a.gate_counts.size(); radial += step) {
         for (std::int32_t gate = 0; gate < a.gate_stride; ++gate) {

@@ -106,7 +106,7 @@ void check_strata(const Site& site, const RefractivityProfile& profile, Worst& w
         std::uniform_real_distribution<double> anywhere(0, ray.nodes().back().range_m);
         for (const double range_m : {-1000.0, -10.0, 10.0, 1e3, 3e4, 1e5, 2.3e5, 4.7e5,
                                      anywhere(random), anywhere(random)}) {
-            // Where a level beam turns, its height says little about its range.
+            // The height of a level beam says little about the range near its turning point.
             // ALevelBeamBeginsAsAParabola tests such beams.
             if (range_m < 1e3 && std::abs(elevation_deg) < 0.01) continue;
             check(profile, options, ray, range_m, worst);
