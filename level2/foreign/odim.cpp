@@ -277,8 +277,8 @@ std::optional<PolarSweep> sweep_of(const Group& root, const Group& dataset, Pola
     // rays of the same time stay in the order in which the antenna turns.
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::rotate(order,
-                        order.begin() + static_cast<std::ptrdiff_t>(first_ray_of(place, count)));
+    const auto first_ray = static_cast<std::ptrdiff_t>(first_ray_of(place, count));
+    std::rotate(order.begin(), order.begin() + first_ray, order.end());
     std::ranges::stable_sort(order, {}, [&](std::size_t ray) { return times[ray]; });
     PolarSweep made;
     made.sweep.vcp_elevation_deg = static_cast<float>(*elevation_deg);
