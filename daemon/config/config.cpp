@@ -114,7 +114,8 @@ void read_size(TomlTable& ingest, GridConfig& config) {
     config.ny = counts[1];
 }
 
-// Checks the rules of the grid library now, so that a complaint names the line of the key.
+// Checks the rules of the grid library when the file is read. Complaints name levels_km, even if
+// the extent or the number of cells is the cause.
 void check_grid(TomlTable& ingest, const GridConfig& config) {
     grid::GridSpec spec = grid::default_spec(0, 0);
     spec.spacing_m = config.spacing_m;
@@ -164,7 +165,8 @@ void read_moments(TomlTable& ingest, GridConfig& config) {
     }
 }
 
-// Reads how to dealias velocities, which derived moments need.
+// Reads the dealiasing method. Moments derived from velocity (VELD, SRV, AZSH, DIVG) need dealiased
+// velocities.
 void read_dealiasing(TomlTable& ingest, GridConfig& config) {
     const auto name = ingest.text("dealias");
     if (!name) return;
@@ -264,7 +266,7 @@ void read_status(TomlTable status, const std::filesystem::path& file, const Path
 std::string reason_against(const std::filesystem::path& directory, const FixedConfig& config) {
     const std::string name = directory.filename().native();
     if (!cache::is_domain_name(name) || cache::is_part(name)) {
-        return fmt::format("{} is not the name of a machine: letters, digits, _ and -",
+        return fmt::format("{} is not a valid name of a machine: letters, digits, _ and -",
                            printable(name));
     }
     for (const auto* path : {&config.paths.drop, &config.paths.state, &config.paths.cache}) {
@@ -380,13 +382,14 @@ std::vector<std::string> needs_restart(const FixedConfig& fresh, const FixedConf
     }
     if (grid != running.grid || queue_limit != running.queue_limit) {
         sentences.emplace_back(
-            "restart the service for changes of the grid, mosaics, threads and queue_limit to take "
-            "effect");
+            "restart the service for changes of moment, moments, dealias, quality, spacing_km, "
+            "extent_km, levels_km, threads, queue_limit and [[domain]] to take effect");
     }
     if (ingest != running.ingest || storage != running.storage) {
         sentences.emplace_back(
-            "restart the service for changes of stations, living, bunzip, the chunks' times, "
-            "refill_hours, compression and the catalog's bytes to take effect");
+            "restart the service for changes of stations, living, chunk_timeout_seconds, "
+            "chunk_grace_seconds, bunzip, refill_hours, compression, [catalog] bytes and "
+            "[[station]] to take effect");
     }
     if (status != running.status) {
         sentences.emplace_back("restart the service for the change of [status] to take effect");

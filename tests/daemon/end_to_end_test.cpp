@@ -322,7 +322,7 @@ TEST(EndToEnd, AReloadTakesWhatCanChangeAndSaysWhatCannot) {
                "[paths]\ndrop = \"drop\"\nstate = \"state\"\ncache = \"cache\"\n"
                "[ingest]\nworkers = 2\n[catalog]\nbytes = \"8 GB\"\n");
     daemon.signal(SIGHUP);
-    EXPECT_TRUE(daemon.wait_for_log("the catalog's bytes to take effect"));
+    EXPECT_TRUE(daemon.wait_for_log("[catalog] bytes and [[station]] to take effect"));
     write_file(file, "[paths]\ndorp = \"drop\"\n");
     daemon.signal(SIGHUP);
     EXPECT_TRUE(daemon.wait_for_log("the service keeps its previous configuration"));
