@@ -24,7 +24,7 @@ struct LoopConfig {
     std::filesystem::path scene;       // empty: the defaults of `stormcellar loop`
     std::string domain;                // empty: the domain of the scene
     int last = 0;                      // number of newest grids to show; 0: as in the scene
-    int seconds = 0;                   // display time of the newest frame; 0: as in the scene
+    int seconds = 0;                   // show only grids of the last seconds; 0: as in the scene
     std::vector<std::string> outputs;  // absolute paths; empty: as in the scene
 
     bool operator==(const LoopConfig&) const = default;
