@@ -48,8 +48,10 @@ Status check_limits(const Volume& volume, std::size_t index) {
     const Sweep& previous = volume.sweeps[index - 1];
     if (sweep.elevation_number == previous.elevation_number &&
         sweep.message_type == previous.message_type) {
-        return refuse("sweep {} goes on with elevation number {} and does not begin with a start",
-                      index, sweep.elevation_number);
+        return refuse(
+            "sweep {} has the same elevation number, {}, as the sweep before it, and the status of "
+            "its first radial does not begin a sweep",
+            index, sweep.elevation_number);
     }
     return {};
 }

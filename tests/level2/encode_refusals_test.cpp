@@ -110,7 +110,7 @@ TEST(EncodeRefusals, NamesWhatWouldNotComeBack) {
              [=](Volume& v) { v.sweeps[1].radials[5].calibration_dbz = nan; }},
             {"radial 7 of sweep 0 has status 0",
              [](Volume& v) { v.sweeps[0].radials[7].status = 0; }},
-            {"sweep 1 goes on with elevation number 1",
+            {"sweep 1 has the same elevation number, 1,",
              [](Volume& v) {
                  v.sweeps[1].elevation_number = 1;
                  v.sweeps[1].radials[0].status = 1;

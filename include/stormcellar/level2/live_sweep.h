@@ -22,9 +22,11 @@ struct LiveSweep {
     bool whole = false;
 };
 
-// One call returns sweeps until they exceed this size together.
+// take_sweeps() stops adding sweeps once those that it returns reach this size together. Later
+// calls return the rest.
 inline constexpr std::uint64_t most_live_bytes = std::uint64_t{64} << 20;
-// Returns the bytes of the sweep's arrays and radials, including the share of the allocator.
+// Returns the bytes of the sweep's arrays and radials, including an estimate of the allocator's
+// overhead.
 [[nodiscard]] std::uint64_t bytes_of(const Sweep& sweep);
 
 // Returns true if the status of the first radial marks the start of the sweep, the status of the
