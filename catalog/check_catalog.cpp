@@ -34,7 +34,7 @@ void compare_row(SQLite::Statement& row, StationCheck& check) {
     }
     struct stat facts {};
     if (::lstat(path.c_str(), &facts) != 0) {
-        // Names of members may be longer than those of files.
+        // The path of an archive member may be too long for a file; then no file has it.
         const bool is_missing = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
         if (!is_missing) {
             check.unseen.push_back(path);
@@ -128,7 +128,8 @@ Result<CatalogCheck> check_catalog(const fs::path& directory, std::string_view s
 
 namespace {
 
-// Counts the rows of a database. Errors: also corrupt if it is damaged or not of this software.
+// Counts the rows of a database. Errors: those of check_station(); corrupt if the database is
+// damaged, is not a catalog of this software, or was made by a later version.
 Result<ClearedDatabase> count_rows(const fs::path& database) {
     const auto check = check_station(database);
     if (!check) return pass_on(check);

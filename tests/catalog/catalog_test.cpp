@@ -171,7 +171,8 @@ TEST_F(CatalogTest, AFileHasOneRowWhateverItsStationWas) {
     }
 }
 
-// note_file() never replaces the row of a file that was read, in any database.
+// If a file that was read has a row in any database, note_file() leaves this row as it is and adds
+// no other.
 TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     FileFacts note = file("/d/a", {}, "");
     note.state = FileState::seen;
@@ -187,11 +188,12 @@ TEST_F(CatalogTest, ANoteGivesWayToWhatIsKnown) {
     EXPECT_TRUE(*catalog_.is_known("/d/b"));
     ASSERT_TRUE(catalog_.register_file(file("/d/b", {})));
     const auto unknown = catalog_.list("", {std::nullopt, std::nullopt, true}).value();
-    ASSERT_EQ(unknown.size(), 1U) << "reading b deletes the row of b among unknown files";
+    ASSERT_EQ(unknown.size(), 1U)
+        << "registering b for KTLX deletes its row in the database of unknown stations";
     EXPECT_EQ(unknown[0].path, "/d/a");
 }
 
-TEST_F(CatalogTest, AFileThatWasNowhereWhileItIsWrittenIsFoundAfterwards) {
+TEST_F(CatalogTest, AFileThatWasNotKnownIsFoundOnceItIsRegistered) {
     EXPECT_FALSE(*catalog_.is_known("/d/a"));
     ASSERT_TRUE(catalog_.register_files("KTLX", {file("/d/a", {})}));
     EXPECT_TRUE(*catalog_.is_settled("/d/a", 1000, 42));
