@@ -26,7 +26,7 @@ Result<std::vector<grid::TimedVolume>> sequence_of(MosaicSources sources) {
     if (sources.volumes.size() < grid::least_sequence) {
         return fail(ErrorCode::bad_argument,
                     "files of one site need a --time, or there must be at least {} of them, so "
-                    "that each can be made again from its neighbors",
+                    "that a grid can be reconstructed from the files before and after it",
                     grid::least_sequence);
     }
     std::vector<grid::TimedVolume> sequence;

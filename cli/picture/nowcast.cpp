@@ -109,7 +109,8 @@ Status write_grid(const std::string& output, const cache::GridDescription& descr
     return format.write(real_file_system(), output, std::span(&grid, 1), *options);
 }
 
-// Finds the storm cells of the grids, if they are to be marked. Pictures move them to their time.
+// Finds the storm cells of the grids if pictures mark cells; otherwise returns none. Each picture
+// moves the cells to its own time.
 Result<std::optional<render::CellOverlay>> cells_to_mark(const NowcastCommand& command,
                                                          const NowcastData& data,
                                                          const render::Scene& scene) {
@@ -258,9 +259,9 @@ Run set_up_nowcast(CLI::App& nowcast) {
                        "Leads in minutes, up to 60, separated by commas. Default: every 5");
     nowcast.add_option(
         "-o,--output", command->output,
-        fmt::format("The file to write for each lead, with the minutes before the "
-                    "ending if there are several, as in storm-05.png: {}, or a grid "
-                    "as {}. Default: only print the measured errors",
+        fmt::format("Write one file for each lead: a picture as {}, or a grid as {}. If there are "
+                    "several leads, the minutes are put before the ending, as in storm-05.png. "
+                    "Default: only print the measured errors",
                     render::known_still_formats(), grid_export::known_grid_formats()));
     nowcast.add_flag("--json", command->json, "Print one JSON document");
     add_scene_options(nowcast, command->scene);

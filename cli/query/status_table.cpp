@@ -286,8 +286,8 @@ std::string rejected_lines(const json& status, Paint paint) {
     return lines;
 }
 
-// Returns a text such as "; kept by process 17: running" if another process than the daemon runs
-// the loops.
+// Returns a text such as "; run by process 17: running" if another process than the daemon runs the
+// loops.
 std::string loops_keeper(const json& status, Paint paint) {
     const json& service = at(status, "loops_service");
     if (!service.is_object()) {

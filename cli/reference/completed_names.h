@@ -18,7 +18,7 @@ namespace stormcellar::cli {
 
 // Returns the names, sorted, each once. Stations are the stations of the catalog. If there is no
 // catalog, they are the domains of the cache that are stations; without a cache, all stations of
-// the table.
+// the station table.
 [[nodiscard]] std::vector<std::string> completed_names(std::string_view kind,
                                                        const std::vector<std::string>& words);
 

@@ -45,7 +45,7 @@ class ServedFiles {
     std::unique_ptr<ScratchCellar> cellar_;
     std::vector<std::filesystem::path> files_;
     std::size_t next_ = 0;
-    // Files that gave grids. If a volume comes in chunks, this is the chunk that completed it.
+    // Files that gave grids. For a volume in chunks, the entry is the chunk that completed it.
     std::vector<std::filesystem::path> gridded_;
     std::atomic<bool> is_stopping_{false};
     std::thread thread_;

@@ -1,4 +1,5 @@
-// Draws rotation and its tracks from raw files. Tests that inputs without rotation are refused.
+// Draws rotation and its tracks from raw files. Tests that tracks refuse files of two radars, and a
+// single grid from a cache.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,7 @@ TEST_F(RotationPictures, ShowTheTornadoOfMoore) {
     EXPECT_EQ(track["probe"]["value"], low["probe"]["value"]);
 }
 
-TEST_F(RotationPictures, RefuseWhatHasNoRotation) {
+TEST_F(RotationPictures, RefuseTracksOfTwoRadarsAndOfASingleGrid) {
     const auto two_radars =
         run({"frame", volume("KTLX19990503_235621.gz"), volume("KLBB20160601_150025_V06"),
              "--product", "rotation-tracks", "-o", out("a.png")});

@@ -140,7 +140,7 @@ TEST(StatusTable, ShowsStationsByNameAndWhatIsWrong) {
         "loop plains: signal 9\n");
 }
 
-TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
+TEST(StatusTable, SaysWhichProcessRunsTheLoopsOrThatItIsGone) {
     json status = {{"loops", {{"running", 1U}, {"each", {{{"name", "a"}, {"running", true}}}}}},
                    {"loops_service", {{"state", "running"}, {"pid", 18U}, {"alive", false}}}};
     const std::string gone = "; process 18, which ran them, is gone\n";
@@ -154,7 +154,7 @@ TEST(StatusTable, ALoopsKeeperThatIsGoneIsNamed) {
     EXPECT_NE(status_table(status, now).find("; no process runs them\n"), std::string::npos);
 }
 
-TEST(StatusTable, OtherDocumentsAreShownAsFarAsTheyGo) {
+TEST(StatusTable, AStatusWithMissingOrWrongFieldsIsStillShown) {
     for (const char* text :
          {"{}", R"({"stations": 5, "rolling": [], "loops": 7, "rejected_files": {}})",
           R"({"stations": [null, 5, {"missing": [1], "latency_s": "x"}], "pending": "x"})",
