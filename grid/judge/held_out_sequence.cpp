@@ -15,7 +15,7 @@ double seconds_between(UtcTime from, UtcTime to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// A volume that was gridded on the columns of the sequence.
+// A volume that was gridded on the columns that all volumes of the sequence share.
 struct Gridded {
     BrickGrid bricks;
     UtcTime middle;
@@ -57,9 +57,10 @@ Result<std::vector<TimedVolume>> repeats_of(const level2::Volume& volume, const 
         sequence.push_back(std::move(timed));
     }
     if (sequence.size() < least_sequence) {
-        return fail(ErrorCode::not_found,
-                    "its lowest cut was scanned {} times; to hold one out, there must be three",
-                    sequence.size());
+        return fail(
+            ErrorCode::not_found,
+            "its lowest cut was scanned {} times; to hold one out, there must be at least three",
+            sequence.size());
     }
     return sequence;
 }

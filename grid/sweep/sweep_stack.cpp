@@ -11,7 +11,7 @@ constexpr double farthest_arc_m = 1e6;  // no radar sees farther; bounds the siz
 
 // Returns true if every radial was measured higher than all radials of lower sweeps.
 bool are_in_order(const level2::Volume& volume, const std::vector<ChosenSweep>& chosen) {
-    float highest_deg = -90;  // highest radial of the lower sweeps
+    float highest_deg = -90;  // highest elevation so far
     for (const ChosenSweep& sweep : chosen) {
         const float floor_deg = highest_deg;
         for (const std::uint32_t radial : sweep.radials) {

@@ -1,12 +1,12 @@
 // stormcellar/grid/chosen.h -- a rung (one form of a step, stormcellar/grid/method.h) that the
-// caller chooses, unless the library is built for a single chain.
+// caller chooses, unless the library is built for a single chain (one rung for each step).
 //
 // In a normal build the library has every rung of every step, and a Chosen is an ordinary value.
 // scripts/check-costs counts the cost of the choice itself, so it also builds the library without
 // choices, with -DSTORMCELLAR_CHAIN=
 //   usual     the default chain, without any effect that is off by default
-//   cheapest  every effect off: flat earth, one elevation for each sweep, nearest, a point, on a
-//             sphere
+//   cheapest  every effect off: beams over a flat earth, one elevation for each sweep, the nearest
+//             gate, each cell as a point, azimuth and arc of columns computed on a sphere
 // In these builds a Chosen is a constant, so the compiler drops all other rungs and all tests of
 // the rung. Such a library serves only for counting costs, because it aborts if a caller chooses
 // another rung.
