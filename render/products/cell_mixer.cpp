@@ -29,7 +29,8 @@ void CellMixer::add(const grid::Sample& cell, double weight) {
 
 grid::CellResult CellMixer::result() const {
     const auto end = parts_.begin() + static_cast<std::ptrdiff_t>(count_);
-    // The value that weighs most determines the circle on which values are averaged.
+    // Add the value with the largest weight first: for values that wrap, the mixture takes
+    // differences from the first value and uses its period.
     const auto weighs_less = [](const Part& a, const Part& b) {
         const bool a_counts = a.cell.status == CellStatus::value;
         const bool b_counts = b.cell.status == CellStatus::value;

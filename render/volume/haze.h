@@ -1,4 +1,4 @@
-// render/volume/haze.h -- shows air that no beam saw as a veil behind the echo.
+// render/volume/haze.h -- draws a veil behind the echo where no beam saw the air.
 //
 // The opacity of the haze along a ray is most_haze * (1 - exp(-s / L)). s is the length of the ray
 // through air that was not seen, in meters of drawn space; L is a fifth of the depth of the box.
@@ -19,10 +19,11 @@ namespace stormcellar::render {
 
 inline constexpr double most_haze = 0.6;
 
-// Returns the color that results if haze of this color and opacity is behind a color.
+// Returns `color` covered by haze of this color and opacity. Keeps the alpha of `color`.
 [[nodiscard]] Rgba8 veiled(Rgba8 color, Rgba8 haze, double opacity);
 
-// Draws the haze over `picture`, which has the size of the geometry.
+// Draws the haze over the background that is in `picture`, before the echo is drawn. `picture` has
+// the size of the geometry.
 void draw_haze(const grid::BrickView& view, const ViewGeometry& geometry, Rgba8 haze, int threads,
                Image& picture);
 
