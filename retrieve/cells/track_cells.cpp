@@ -11,20 +11,21 @@
 namespace stormcellar::retrieve {
 namespace {
 
-// The error of the motion that a cell takes over as its prior when it splits or merges. The jump of
-// its place does not change this motion.
+// Added in quadrature to the error of a motion that becomes a prior because its cell split or
+// merged. The position of such a cell jumps, but that jump is not part of the motion.
 constexpr double inherited_error_mps = 3;
-// The gate around a predicted place: this much, and the error of the motion over the gap.
+// The search radius (gate) around a predicted place: gate_m, plus gate_mps (fastest_mps if no
+// motion is known) for each second since the last sighting; at most farthest_gate_m.
 constexpr double gate_m = 5'000, gate_mps = 5, farthest_gate_m = 15'000;
 
 struct CellTrack {
     std::string id;
     std::vector<CellSighting> sightings;
-    std::size_t fit_from = 0;  // first sighting after the last jump in place
+    std::size_t fit_from = 0;  // first sighting of the fitted line (last split or merger)
     const StormCell* cell = nullptr;
     const grid::GridSpec* spec = nullptr;
     std::optional<TrackMotion> prior, motion;
-    bool has_inherited = false;  // the prior is the motion before a jump in place
+    bool has_inherited = false;  // the prior is a motion from before a split or merger
     bool is_open = true;
 };
 
@@ -99,7 +100,8 @@ class Tracker {
 
     // Predicts the place of each open track by the motion of the track, else by the motion of the
     // echo near it, else by the mean motion of the other tracks. If none of these is known, the
-    // cell may have moved anywhere.
+    // predicted place is the last place, and the search radius grows with fastest_mps, up to
+    // farthest_gate_m.
     [[nodiscard]] std::vector<ExpectedCell> expect_cells(const CellScan& scan) const {
         const std::optional<Motion> mean = mean_motion();
         std::vector<ExpectedCell> expected;
@@ -195,7 +197,8 @@ class Tracker {
         track.has_inherited = true;
     }
 
-    // Begins a new line after a jump in place; the motion so far becomes the prior.
+    // Begins a new fitted line when the track has split or merged, because its position jumps. The
+    // motion so far becomes the prior.
     static void restart_line(CellTrack& track) {
         inherit(track, track.motion);
         track.fit_from = track.sightings.size() - 1;
@@ -214,7 +217,7 @@ class Tracker {
                 forecast_track(track.sightings.back(), *track.motion, options_.position_error_m);
     }
 
-    // Makes an id from time and place. If the id is taken, adds a letter at its end.
+    // Makes an id from time and place. If the id is taken, adds _2, _3 and so on.
     std::string new_id(UtcTime time, grid::GeoPoint place) {
         const std::string id =
             fmt::format("{}_{:.2f}{}_{:.2f}{}", format_compact(time), std::abs(place.latitude_deg),

@@ -1,4 +1,4 @@
-// retrieve/quality/echo_features.h -- numbers of each gate that tell weather from other echo.
+// retrieve/quality/echo_features.h -- features of each gate that tell weather from other echo.
 //
 // Threads   Pure functions.
 #pragma once
@@ -26,7 +26,7 @@ enum class Feature : std::uint8_t {
     echo_share,          // share of gates with echo, 9 x 8.25 km
     mean_reflectivity,   // dBZ, 9 x 8.25 km
     reflectivity_above,  // dBZ, mean of 3 x 1.25 km in the next sweep above
-    speed,               // m/s, of the gate, without its sign, folded
+    speed,               // m/s, of the gate, without its sign, not dealiased
     speed_texture,       // m/s, along the radial, 3 x 1.75 km
     width,               // m/s, mean of the spectrum width, 3 x 1.75 km
     speed_share,         // share of gates with a velocity, 3 x 1.75 km
@@ -49,7 +49,7 @@ class EchoGates {
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t radial) const {
         return std::span(gates_).subspan(begins_[radial], begins_[radial + 1] - begins_[radial]);
     }
-    // Returns how many gates with echo come before the radial.
+    // Returns how many of these gates come before the radial.
     [[nodiscard]] std::size_t begin(std::size_t radial) const { return begins_[radial]; }
     [[nodiscard]] std::size_t count() const { return gates_.size(); }
 
@@ -66,15 +66,16 @@ class EchoGates {
 using FeatureVisitor =
     std::function<void(Feature feature, std::size_t radial, std::span<const float> values)>;
 
-// Visits the features of a rule; for each gate, the features come in their order. `field` is a
-// reflectivity moment of the sweep, and `echo` has its gates. Doppler features come from the sweep
-// itself or from the sweep of nearest elevation, at most 0.3 degrees away; they are missing if
-// there is no such sweep. Other moments are read into `scratch`, whose memory serves all sweeps.
+// Visits the features of a rule. For each radial they come in a fixed order, which is not that of
+// Feature. `field` is a reflectivity moment of the sweep, and `echo` has its gates. Doppler
+// features come from the sweep itself or from the sweep of nearest elevation, at most 0.3 degrees
+// away; they are missing if there is no such sweep. Other moments are read into `scratch`, whose
+// memory serves all sweeps.
 void visit_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
                     const EchoGates& echo, QualityRule rule, GateField& scratch,
                     const FeatureVisitor& visit);
 
-// Visits, in the same way, the features by which echo that is not weather is named
+// Visits, in the same way, the features that decide the kind of echo that is not weather
 // (stormcellar/retrieve/echo_kinds.h): reflectivity, height, range_texture, echo_share,
 // reflectivity_above and the Doppler features, and for the dual rule correlation and phase_texture.
 void visit_kind_features(const level2::Volume& volume, std::size_t sweep, const GateField& field,
