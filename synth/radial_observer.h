@@ -32,8 +32,8 @@ class RadialObserver {
     void observe(std::size_t row, std::size_t number, const level2::Radial& radial, double t_s);
 
     // Computes the echo of each gate along a radial, before noise, folding, loss and speckle. The
-    // echo is the sample at the gate's center, or the mean over the beam and the pulse, with
-    // clutter.
+    // echo is the mean over the beam and the pulse if the instrument has a volume, else the sample
+    // at the gate's center. Clutter is added if the instrument has it.
     void sample(const level2::Radial& radial, double t_s);
     [[nodiscard]] const std::vector<GateEcho>& echoes() const { return echoes_; }
 
