@@ -4,8 +4,9 @@
 // Every test of a fault ends with this check, which demands the following. Each file of the drop
 // directory is in the catalog exactly once, settled, with a reason if it is not complete. Each
 // complete volume has its whole grid in the cache. Every grid opens and verifies, and every
-// database is sound. No temporary files are left. The check reads the files itself; it uses only
-// readers of the product. Call it when the daemon has stopped.
+// database is sound. No temporary files are left. The check lists the files and reads the databases
+// itself. Of the product's code it uses only code that reads, none that writes. Call the check when
+// the daemon has stopped.
 //
 // Threads   A function without state.
 #pragma once

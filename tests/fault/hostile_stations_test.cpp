@@ -21,7 +21,7 @@ constexpr int few_descriptors = 512;
 
 class InventedStations : public HostileCases {
   protected:
-    // Limits the descriptors permanently, as a service manager does.
+    // Sets the soft and the hard limit of descriptors, so that the daemon cannot raise it.
     InventedStations() {
         const std::string limit =
             std::to_string(few_descriptors) + ":" + std::to_string(few_descriptors);
@@ -72,8 +72,9 @@ TEST_F(InventedStations, ClaimsOfEveryKnownStationLeaveDescriptorsForTheRest) {
     stop();
 }
 
-// Starts the daemon with databases of a version that accepted every name.
-TEST_F(InventedStations, AStateThatAnAttackLeftIsReadyAsSoon) {
+// Starts the daemon beside databases such as an old version left, which accepted every station
+// name.
+TEST_F(InventedStations, TheDaemonStartsAndWorksWithDatabasesThatAnAttackLeft) {
     start();
     expect_gridded("KTLX", put_good("KTLX"));
     stop();
@@ -81,7 +82,7 @@ TEST_F(InventedStations, AStateThatAnAttackLeftIsReadyAsSoon) {
         fs::copy_file(daemon_.catalog() / "KTLX.sqlite",
                       daemon_.catalog() / (invented_station(i) + ".sqlite"));
     const double took_s = start();
-    std::printf("ready after %.2f s beside 1,500 databases of nobody\n", took_s);
+    std::printf("ready after %.2f s with 1,500 databases of unknown stations\n", took_s);
     EXPECT_LT(open_descriptors(daemon_.id()), few_descriptors / 4);
     expect_gridded("KTLX", put_good("KTLX", 60));
     expect_gridded("KFWS", put_good("KFWS"));
@@ -104,7 +105,7 @@ TEST_F(HostileCases, AVolumeOfDateZeroHasNoGridOf1970) {
     for (const auto& entry : fs::directory_iterator(daemon_.cache() / "KTLX/REF"))
         days.insert(entry.path().filename().native());
     for (const std::string& day : days)
-        EXPECT_GE(day, "2020") << "the grid is of a day without radars";
+        EXPECT_GE(day, "2020") << "no grid should be from before 2020";
     stop();
 }
 
@@ -125,7 +126,7 @@ TEST_F(HostileCases, AnInventedStationInsideAMosaicDoesNotEnterIt) {
 
 // Tests a file that first names no station or a known station, and then grows into a volume of an
 // unknown station.
-TEST_F(HostileCases, AnInventedStationHasNoLivingGridEither) {
+TEST_F(HostileCases, AGrowingFileOfAnInventedStationGetsNoGridAndNoDatabase) {
     start();
     Claims claims = claims_of("KTLX", now_utc());
     claims.station = "XAAA";

@@ -5,7 +5,8 @@
 //
 // Fields that give the place of gates, or the sweep and azimuth to which they belong, may lose
 // gates. Then everything returned must be in the volume, and everything lost must be reported.
-// STORMCELLAR_MUTANTS=N takes 8 MiB of each volume instead of its start and end.
+// The test takes the first 150,000 bytes of messages of each volume, or the first 8 MiB if
+// STORMCELLAR_MUTANTS is set, and its last ten messages.
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -89,8 +90,8 @@ bool is_part_of(const Gates& found, const Gates& own) {
     });
 }
 
-// Finds the first returned radial whose gates match no radial of the volume, in the order of the
-// file. Returns a text about it, or an empty text if there is none.
+// Matches the returned radials with the radials of the volume, both in the order of the file, and
+// finds the first one without a match. Returns a text about it, or an empty text if there is none.
 std::string invented(const std::vector<Gates>& found, const std::vector<Gates>& own) {
     std::size_t at = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -134,7 +134,8 @@ TEST_F(Reload, AnAddressThatIsTakenLeavesTheServerAsItWas) {
     EXPECT_EQ(status(), 200);
 }
 
-// 2026-11-28: the old server ended although that could not help the new server.
+// 2026-11-28: the old server was closed to free its port. That could not help, because the new
+// address is not of this machine.
 TEST_F(Reload, AnAddressOfAnotherMachineLeavesTheServerAsItWas) {
     start();
     RawClient kept(port_);
