@@ -5,7 +5,7 @@ import { ViewState, stateOf } from '../scene/view_state';
 import { namesOf } from '../tables/units';
 import { rememberedUnits } from './remembered';
 
-const afterMs = 150; // less than a view rests before its fine picture
+const afterMs = 150; // less than leastStillAfterMs (drawing.ts), after which a resting view gets its fine picture
 const everyMs = 1000; // while something moves
 
 // Returns the view of an address. If the address names no units, takes the units that the user chose last.
@@ -14,7 +14,8 @@ export function stateOfAddress(hash = location.hash): ViewState {
     return namesOf(state.units) ? state : { ...state, units: rememberedUnits() };
 }
 
-// Returns the time parameter of the address if it is not a time; otherwise an empty text.
+// Returns the time parameter of the address if it is neither a time nor `latest`, cut to 40 characters; otherwise an
+// empty text.
 export function timeThatIsNone(hash = location.hash): string {
     const time = new URLSearchParams(hash.slice(1)).get('time') ?? '';
     return time !== '' && time !== 'latest' && stateOf(hash).time === 'latest' ? time.slice(0, 40) : '';

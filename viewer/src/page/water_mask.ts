@@ -5,7 +5,7 @@ import { Plane } from '../earth/projection';
 import { make } from './dom';
 
 const cellsAcross = 1024;
-const farthest = 1e5; // distance in cells to which points that are farther away are moved
+const farthest = 1e5; // columns and rows are limited to plus or minus this many cells
 
 // Paints the ground within `halfXM` to the east and west of the middle, and within `halfYM` to the north and south.
 export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, halfYM: number): WaterMask {
@@ -29,7 +29,8 @@ export function waterMask(land: Plane[][], lakes: Plane[][], halfXM: number, hal
         pen.fill('nonzero');
     };
     // Paint sea, then land, then lakes. A cell in which two rings touch may keep a little of the color below. The
-    // picture does not show this, because a place counts as water only if at least half of it is water.
+    // drawn map does not show this, because the renderer takes a place for water only if at least half of the mask
+    // there is water.
     pen.fillStyle = 'white';
     pen.fillRect(0, 0, picture.width, picture.height);
     paint(land, 'black');

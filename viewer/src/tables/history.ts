@@ -7,8 +7,8 @@ export class History<T> {
     private future: T[] = [];
     private doing: string | null = null;
 
-    // Call before a change, with the value that will change. Consecutive changes with the same `doing`, such as those
-    // of a drag, are one step.
+    // Call before a change, with the value that will change. Consecutive changes with the same label `doing`, such
+    // as those of a drag, are one step.
     note(before: T, doing: string | null = null): void {
         if (doing !== null && doing === this.doing) return;
         this.doing = doing;

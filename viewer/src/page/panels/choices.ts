@@ -26,7 +26,8 @@ const againAfterMs = 20_000; // between updates of ages
 const scanS = 15 * 60; // no scan takes longer
 const earlyMs = 15_000; // the first sweep may begin before the time of its volume
 
-// Returns how many tilts a volume has. Leaves out sweeps of the volume before, which fill a growing grid.
+// Returns how many tilts of a volume are in its grid so far, and the highest. Leaves out sweeps of the volume before,
+// which fill the rest of a growing grid.
 function tiltsOf(facts: GridFacts | null, timeMs: number): { count: number; highestDeg: number } | null {
     const own = facts?.provenance.sweeps.filter(({ start }) => Date.parse(start) >= timeMs - earlyMs) ?? [];
     const angles = [...new Set(own.map((one) => one.elevation_deg.toFixed(1)))].map(Number);
@@ -90,7 +91,7 @@ function putNotice(app: App): void {
     if (element('follow').textContent !== told) element('follow').textContent = told;
 }
 
-// Shows when each site of a region was seen, and why other sites are not in the picture.
+// Shows when each radar in the picture scanned, and why other radars of the region are not in it.
 function putSites(app: App, { sites }: FactsOfShown): void {
     const box = element('sites-told');
     const { shown } = app;
