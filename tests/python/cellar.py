@@ -1,10 +1,12 @@
-"""Makes a catalog and a cache with the command line."""
+"""Finds the real volumes and the command line, and makes a catalog and a cache with it."""
 
 import os
 import pathlib
 import shutil
 import subprocess
 
+BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
+DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
 
 

@@ -2,16 +2,12 @@
 
 import importlib.util
 import json
-import os
 import pathlib
 import subprocess
 import unittest
 
 import stormcellar
-
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
-PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
+from cellar import DATA, PROGRAM
 
 
 @unittest.skipUnless(DATA, "no real volumes: set STORMCELLAR_DATA")

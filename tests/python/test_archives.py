@@ -3,7 +3,6 @@
 import concurrent.futures
 import importlib.util
 import itertools
-import os
 import pathlib
 import pickle
 import shutil
@@ -13,10 +12,8 @@ from unittest import mock
 
 import numpy as np
 
-from cellar import PROGRAM, make_catalog, run
+from cellar import DATA, PROGRAM, make_catalog, run
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 HAS_XARRAY = importlib.util.find_spec("xarray") is not None
 
 if HAS_XARRAY:

@@ -1,14 +1,13 @@
 """Opens real volumes through xarray's engine, and as radars of Py-ART if these are installed."""
 
 import importlib.util
-import os
 import pathlib
 import unittest
 
 import numpy as np
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
+from cellar import DATA
+
 STORM = pathlib.Path(DATA or "") / "volumes/KTLX19990503_235621.gz"
 BUSY = pathlib.Path(DATA or "") / "volumes/KLBB20160601_150025_V06"
 

@@ -1,6 +1,5 @@
 """Reads, in Python, catalogs and caches that the command line has made."""
 
-import os
 import pathlib
 import pickle
 import tempfile
@@ -9,10 +8,7 @@ import unittest
 import numpy as np
 
 import stormcellar
-from cellar import PROGRAM, make_cache, make_catalog
-
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
+from cellar import DATA, PROGRAM, make_cache, make_catalog
 
 
 def xarray_or_skip(test):

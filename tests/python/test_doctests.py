@@ -5,7 +5,6 @@ import doctest
 import importlib
 import importlib.util
 import inspect
-import os
 import pathlib
 import pkgutil
 import tempfile
@@ -14,10 +13,7 @@ import unittest
 import numpy as np
 
 import stormcellar
-from cellar import PROGRAM, make_cache, make_catalog
-
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
+from cellar import DATA, PROGRAM, make_cache, make_catalog
 
 
 def has(name):

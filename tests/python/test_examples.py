@@ -9,10 +9,9 @@ import tempfile
 import unittest
 
 import stormcellar
+from cellar import DATA
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "python" / "examples"
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 STORM = "volumes/KTLX19990503_235621.gz"
 SOURCE = pathlib.Path(stormcellar.__file__).parents[1]  # the tested package
 

@@ -1,6 +1,5 @@
 """Opens volumes of other formats, and compares every gate with the Level II file of which they were made."""
 
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -8,9 +7,8 @@ import unittest
 
 import numpy as np
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
-PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
+from cellar import DATA, PROGRAM
+
 SOURCE = "volumes/KCRP20170826_044114.trimmed.ar2v"
 
 

@@ -16,9 +16,8 @@ import warnings
 
 import numpy as np
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
-PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
+from cellar import DATA, PROGRAM
+
 FILES = (
     "volumes/KTLX19910720_160529.gz",  # 1991; cut inside a message
     "volumes/KTLX19990503_235621.gz",  # REF at 1 km and VEL at 250 m, in split cuts and in one sweep

@@ -2,7 +2,6 @@
 
 import gc
 import importlib.util
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -11,10 +10,7 @@ import unittest
 import numpy as np
 
 import stormcellar
-
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
-PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
+from cellar import DATA, PROGRAM
 
 
 @unittest.skipUnless(DATA, "no real volumes: set STORMCELLAR_DATA")

@@ -1,7 +1,6 @@
 """Draws real volumes in Python, and compares the files with those of the command line."""
 
 import gc
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -10,10 +9,7 @@ import unittest
 import numpy as np
 
 import stormcellar
-
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
-PROGRAM = os.environ.get("STORMCELLAR_PROGRAM")
+from cellar import DATA, PROGRAM
 
 
 @unittest.skipUnless(DATA, "no real volumes: set STORMCELLAR_DATA")

@@ -4,7 +4,6 @@ import contextlib
 import datetime
 import http.server
 import importlib.util
-import os
 import pathlib
 import re
 import threading
@@ -15,10 +14,9 @@ import urllib.parse
 import numpy as np
 
 import stormcellar
+from cellar import DATA
 from stormcellar import sources
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 CHUNKS = pathlib.Path(DATA or "") / "chunks/KLOT_34"
 STORM = pathlib.Path(DATA or "") / "volumes/KTLX19990503_235621.gz"
 

@@ -1,14 +1,13 @@
 """Reads real volumes as xarray datasets, and compares them with xradar if it is installed."""
 
 import importlib.util
-import os
 import pathlib
 import unittest
 
 import numpy as np
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
+from cellar import DATA
+
 HAS_XARRAY = importlib.util.find_spec("xarray") is not None
 STORM = "volumes/KTLX19990503_235621.gz"
 BUSY = "volumes/KLBB20160601_150025_V06"

@@ -10,11 +10,10 @@ import tempfile
 import unittest
 import unittest.mock
 
+from cellar import DATA
 from stormcellar import sources
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-BESIDE = SOURCE.parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 BLOCK = re.compile(r"```python\n(.*?)```\n(?:```text\n(.*?)```)?", re.S)
 
 

@@ -3,7 +3,6 @@
 import gc
 import io
 import json
-import os
 import pathlib
 import threading
 import unittest
@@ -11,9 +10,8 @@ import unittest
 import numpy as np
 
 import stormcellar
+from cellar import DATA
 
-BESIDE = pathlib.Path(__file__).resolve().parents[2].parent / "shared" / "data"
-DATA = os.environ.get("STORMCELLAR_DATA") or (BESIDE if BESIDE.is_dir() else None)
 STORM = "volumes/KTLX19990503_235621.gz"
 BUSY = "volumes/KLBB20160601_150025_V06"
 
