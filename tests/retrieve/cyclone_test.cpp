@@ -246,17 +246,8 @@ TEST(NoCyclone, WhereTheMaximumIsNotSeen) {
 }
 
 TEST(NoCyclone, InOddVolumes) {
-    const auto noise_alone = [](double azimuth, double range, double, double) {
-        return std::fmod(azimuth * 7919 + range * 104'729, 60.0) - 30;
-    };
-    FoldedSpec one_gate;
-    one_gate.radials = 1;
-    one_gate.gates = 1;
-    one_gate.missing = 0;
-    FoldedSpec legacy;
-    legacy.radials = 367;
-    legacy.elevations_deg = {0.5};
-    for (FoldedVolume folded : {fold(one_gate, noise_alone), fold(legacy, noise_alone)}) {
+    for (const FoldedSpec& spec : {one_gate_spec(), one_legacy_sweep_spec()}) {
+        FoldedVolume folded = fold(spec, scattered_mps);
         folded.volume.block.emplace();
         folded.volume.block->latitude_deg = 30;
         folded.volume.block->longitude_deg = -90;

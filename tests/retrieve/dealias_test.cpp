@@ -152,22 +152,13 @@ TEST(Dealias, TheMainEchoIsNoGuessButEchoOnItsOwnIs) {
 }
 
 TEST(Dealias, OddVolumesAreNoTrouble) {
-    const auto noise_alone = [](double azimuth, double range, double, double) {
-        return std::fmod(azimuth * 7919 + range * 104'729, 60.0) - 30;
-    };
-    FoldedSpec one_gate;
-    one_gate.radials = 1;
-    one_gate.gates = 1;
-    one_gate.missing = 0;
-    FoldedSpec legacy;
-    legacy.radials = 367;
+    FoldedSpec legacy = one_legacy_sweep_spec();
     legacy.gates = 60;
-    legacy.elevations_deg = {0.5};
     for (const Dealiasing rung : {Dealiasing::profile, Dealiasing::region, Dealiasing::anchored}) {
         EXPECT_EQ(dealias({}, rung).sweeps.size(), 0U);
-        EXPECT_EQ(dealias(fold(one_gate, uniform).volume, rung).gates, 5)
+        EXPECT_EQ(dealias(fold(one_gate_spec(), uniform).volume, rung).gates, 5)
             << "each sweep has one gate";
-        EXPECT_GT(dealias(fold(legacy, noise_alone).volume, rung).gates, 0);
+        EXPECT_GT(dealias(fold(legacy, scattered_mps).volume, rung).gates, 0);
         FoldedVolume folded = fold({}, uniform);
         for (level2::Radial& radial : folded.volume.sweeps[0].radials)
             radial.nyquist_mps = 0;

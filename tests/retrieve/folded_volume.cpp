@@ -68,6 +68,25 @@ level2::Sweep sweep_of(const FoldedSpec& spec, double elevation_deg) {
 
 }  // namespace
 
+double scattered_mps(double azimuth_deg, double range_m, double, double) {
+    return std::fmod(azimuth_deg * 7919 + range_m * 104'729, 60.0) - 30;
+}
+
+FoldedSpec one_gate_spec() {
+    FoldedSpec spec;
+    spec.radials = 1;
+    spec.gates = 1;
+    spec.missing = 0;
+    return spec;
+}
+
+FoldedSpec one_legacy_sweep_spec() {
+    FoldedSpec spec;
+    spec.radials = 367;
+    spec.elevations_deg = {0.5};
+    return spec;
+}
+
 RadialVelocity along_beam(const synth::Wind& wind) {
     return [wind, beam = beam_of_radar()](double azimuth_deg, double range_m, double elevation_deg,
                                           double height_m) {

@@ -42,6 +42,14 @@ struct FoldedVolume {
     std::vector<std::vector<double>> true_mps;
 };
 
+// A velocity that looks random: each gate has another one, from -30 to 30 m/s.
+[[nodiscard]] double scattered_mps(double azimuth_deg, double range_m, double elevation_deg,
+                                   double height_m);
+
+// Odd volumes: one gate in each sweep, and one sweep with as many radials as a legacy radar sends.
+[[nodiscard]] FoldedSpec one_gate_spec();
+[[nodiscard]] FoldedSpec one_legacy_sweep_spec();
+
 [[nodiscard]] FoldedVolume fold(const FoldedSpec& spec, const RadialVelocity& velocity);
 [[nodiscard]] FoldedVolume fold(const FoldedSpec& spec, const synth::Wind& wind);
 

@@ -74,11 +74,7 @@ level2::Volume with_radials(int radials) {
 }
 
 level2::Volume one_gate() {
-    FoldedSpec spec = small_spec();
-    spec.radials = 1;
-    spec.gates = 1;
-    spec.missing = 0;
-    return placed(fold(spec, steady));
+    return placed(fold(one_gate_spec(), steady));
 }
 
 level2::Volume noise_alone() {
