@@ -15,15 +15,7 @@ using level2::SweepMoment;
 using level2::Volume;
 using Values = std::vector<double>;
 
-class Cfradial2 : public NetcdfFile {
-  protected:
-    void write(const Volume& volume, RangeAxes ranges = RangeAxes::one_if_possible) {
-        VolumeWriteOptions options;
-        options.ranges = ranges;
-        const Status written = write_cfradial2(real_file_system(), path_, volume, options);
-        ASSERT_TRUE(written) << written.error().message;
-    }
-};
+using Cfradial2 = VolumeFile<write_cfradial2>;
 
 TEST_F(Cfradial2, EachSweepIsAGroupInTheOrderOfTheFile) {
     Volume volume = small_volume(
@@ -70,7 +62,7 @@ TEST_F(Cfradial2, LongGatesOfASweepAreRepeatedOrHaveTheirOwnRange) {
     Reader alone(path_, "sweep_1");
     EXPECT_EQ(alone.values("DBZH", 2), (Values{100, -1})) << "no other sweep matters";
     EXPECT_EQ(alone.values("range", 2), (Values{2500, 3500}));
-    write(volume, RangeAxes::of_each_geometry);
+    write(volume, with_all_ranges());
     Reader own(path_, "sweep_0");
     EXPECT_EQ(own.values("DBZH", 2), (Values{100, -1}));
     EXPECT_EQ(own.values("VRADH", 1), Values{7});

@@ -25,12 +25,8 @@ std::string word(const std::string& letters) {
     return letters.c_str();
 }
 
-class Cfradial : public NetcdfFile {
+class Cfradial : public VolumeFile<write_volume> {
   protected:
-    void write(const Volume& volume, const VolumeWriteOptions& options = {}) {
-        const Status written = write_volume(real_file_system(), path_, volume, options);
-        ASSERT_TRUE(written) << written.error().message;
-    }
     static Volume one_moment(SweepMoment moment) {
         return small_volume({small_sweep(1, {std::move(moment)})});
     }

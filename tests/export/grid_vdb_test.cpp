@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/export/grid_of_all_states.h"
 #include "tests/testing/temporary_directory.h"
 
 namespace stormcellar::vdb {
@@ -19,25 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 
 grid::Grid small_grid(level2::Moment moment = level2::Moment::ref) {
-    grid::Grid grid;
-    grid.moment = moment;
-    grid.spec = grid::default_spec(35, -97);
-    grid.spec.nx = 30;
-    grid.spec.ny = 20;
-    grid.spec.levels_m = {500, 1000, 1500, 2000};
-    grid.time = grid.start_time = grid.end_time = UtcTime{std::chrono::seconds{1'600'000'000}};
-    grid.sites = {{"KTLX", 35, -97, 389}};
-    grid.provenance.stations = {"KTLX"};
-    grid.provenance.method = "column-linear";
-    grid.provenance.predicted_error = "0.4 dBZ";
-    grid.values.resize(grid.spec.cell_count());
-    grid.status.resize(grid.spec.cell_count());
-    for (std::size_t cell = 0; cell < grid.values.size(); ++cell) {
-        grid.status[cell] = static_cast<grid::CellStatus>(cell % 4);
-        if (grid.status[cell] == grid::CellStatus::value)
-            grid.values[cell] = 0.25F * static_cast<float>(cell);
-    }
-    return grid;
+    return testing::grid_of_all_states(moment, 30, 20, {500, 1000, 1500, 2000});
 }
 
 TEST(GridVdb, RefusesLevelsAtUnequalDistances) {

@@ -17,6 +17,7 @@
 
 #include "export/zarr_chunks.h"
 #include "stormcellar/export/grid_format.h"
+#include "tests/export/grid_of_all_states.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -28,25 +29,8 @@ using ::testing::HasSubstr;
 
 // Two chunks of columns, and a level spacing that is not regular.
 grid::Grid small_grid(level2::Moment moment = level2::Moment::ref, int columns = chunk_side + 3) {
-    grid::Grid grid;
-    grid.moment = moment;
-    grid.spec = grid::default_spec(35, -97);
-    grid.spec.nx = columns;
-    grid.spec.ny = 5;
-    grid.spec.levels_m = {500, 1000, 2500};
-    grid.time = grid.start_time = grid.end_time = UtcTime{std::chrono::seconds{1'600'000'000}};
-    grid.sites = {{"KTLX", 35, -97, 389}};
-    grid.provenance.stations = {"KTLX"};
-    grid.provenance.method = "column-linear";
-    grid.provenance.predicted_error = "0.4 dBZ";
+    auto grid = testing::grid_of_all_states(moment, columns, 5, {500, 1000, 2500});
     grid.provenance.vcp = 212;
-    grid.values.resize(grid.spec.cell_count());
-    grid.status.resize(grid.spec.cell_count());
-    for (std::size_t cell = 0; cell < grid.values.size(); ++cell) {
-        grid.status[cell] = static_cast<grid::CellStatus>(cell % 4);
-        if (grid.status[cell] == grid::CellStatus::value)
-            grid.values[cell] = 0.25F * static_cast<float>(cell);
-    }
     return grid;
 }
 

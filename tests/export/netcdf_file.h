@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "stormcellar/export/cfradial.h"
 #include "tests/testing/power_cut_file_system.h"
 #include "tests/testing/temporary_directory.h"
 
@@ -43,5 +44,22 @@ class NetcdfFile : public ::testing::Test {
     testing::TemporaryDirectory directory_;
     const std::filesystem::path path_ = directory_.path() / "out.nc";
 };
+
+// A test of a format of volumes, whose function `write_file` is one like write_uf().
+template <auto write_file>
+class VolumeFile : public NetcdfFile {
+  protected:
+    void write(const level2::Volume& volume, const VolumeWriteOptions& options = {}) const {
+        const Status written = write_file(real_file_system(), path_, volume, options);
+        ASSERT_TRUE(written) << written.error().message;
+    }
+};
+
+// The options for volumes whose sweeps have gates at different ranges.
+inline VolumeWriteOptions with_all_ranges() {
+    VolumeWriteOptions options;
+    options.ranges = RangeAxes::of_each_geometry;
+    return options;
+}
 
 }  // namespace stormcellar::netcdf

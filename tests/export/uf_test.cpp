@@ -19,14 +19,11 @@ using Words = std::vector<int>;
 
 constexpr int missing = -32768;
 
-class Uf : public NetcdfFile {
+class Uf : public VolumeFile<write_uf> {
   protected:
     // Writes the volume, and reads the words of each record. words[i][1] is word 1 of record i.
-    void write(const Volume& volume, RangeAxes ranges = RangeAxes::one_if_possible) {
-        VolumeWriteOptions options;
-        options.ranges = ranges;
-        const Status written = write_uf(real_file_system(), path_, volume, options);
-        ASSERT_TRUE(written) << written.error().message;
+    void write(const Volume& volume, const VolumeWriteOptions& options = {}) {
+        VolumeFile::write(volume, options);
         const auto bytes = *read_file(path_);
         const auto byte = [&](std::size_t at) { return std::to_integer<int>(bytes.at(at)); };
         const auto length = [&](std::size_t at) {
@@ -126,7 +123,7 @@ TEST_F(Uf, WithOwnRangesARadialHasOnlyItsOwnGates) {
     far.first_gate_m = 40'500;
     far.gate_spacing_m = 1000;
     write(small_volume({small_sweep(1, {small_moment(Moment::vel, {{2}})}), small_sweep(2, {far})}),
-          RangeAxes::of_each_geometry);
+          with_all_ranges());
     EXPECT_EQ(place_of(0, "DZ"), 0U);
     EXPECT_EQ(gates_of(1, "DZ"), (Words{1700, -3200}));
     EXPECT_EQ(header_of(1, "DZ", 3), 40) << "a word cannot hold 40500 m";

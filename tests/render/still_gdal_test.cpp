@@ -30,13 +30,7 @@ constexpr const char* gdal_translate = "/usr/bin/gdal_translate";
 grid::GridSpec spec_of(grid::Projection projection) {
     grid::GridSpec spec = small_spec(300, 8, 1500, 1000);
     spec.ny = 260;
-    spec.projection = projection;
-    if (spec.in_degrees()) {
-        spec.spacing_m = 0;
-        spec.spacing_deg = 0.0125;
-    }
-    if (grid::facts_of(projection).takes_parallels) spec.parallels_deg = {33, 45};
-    return spec;
+    return in_projection(spec, projection);
 }
 
 class StillGdal : public ::testing::TestWithParam<grid::ProjectionFacts> {

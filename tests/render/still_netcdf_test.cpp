@@ -36,13 +36,7 @@ class StillNetcdf : public ::testing::TestWithParam<ProductCase> {
     static grid::GridSpec spec_of(grid::Projection projection) {
         grid::GridSpec spec = small_spec(200, 20, 1500, 750);
         spec.ny = 170;
-        spec.projection = projection;
-        if (spec.in_degrees()) {
-            spec.spacing_m = 0;
-            spec.spacing_deg = 0.0125;
-        }
-        if (grid::facts_of(projection).takes_parallels) spec.parallels_deg = {33, 45};
-        return spec;
+        return in_projection(spec, projection);
     }
 
     // Returns the storm. One half of its core is not seen above 6 km.

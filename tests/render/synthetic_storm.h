@@ -36,20 +36,25 @@ inline grid::GridSpec small_degrees_spec(int n, int levels) {
     return spec;
 }
 
+// Returns the spec in another projection, with about the same spacing.
+inline grid::GridSpec in_projection(grid::GridSpec spec, grid::Projection projection) {
+    spec.projection = projection;
+    if (spec.in_degrees()) {
+        spec.spacing_deg = spec.spacing_m / 111e3;
+        spec.spacing_m = 0;
+    }
+    if (grid::facts_of(projection).takes_parallels) spec.parallels_deg = {30, 46};
+    return spec;
+}
+
 // Returns a spec of two levels in any projection, with a spacing near `spacing_m`.
 inline grid::GridSpec projected_spec(grid::Projection projection, double latitude_deg,
                                      double longitude_deg, int nx, int ny, double spacing_m) {
     grid::GridSpec spec = small_spec(nx, 2, spacing_m);
     spec.ny = ny;
-    spec.projection = projection;
     spec.center_latitude_deg = latitude_deg;
     spec.center_longitude_deg = longitude_deg;
-    if (spec.in_degrees()) {
-        spec.spacing_m = 0;
-        spec.spacing_deg = spacing_m / 111e3;
-    }
-    if (projection == grid::Projection::lambert_conformal) spec.parallels_deg = {30, 46};
-    return spec;
+    return in_projection(spec, projection);
 }
 
 struct Cell {
