@@ -35,6 +35,17 @@ namespace stormcellar::capi {
 // Returns the moment and the threads. Errors: bad_argument.
 [[nodiscard]] Result<grid::GridderOptions> gridder_of(const stormcellar_grid_options& options);
 
+// What the options ask for in a grid of one volume.
+struct VolumeGridding {
+    grid::SitePosition site;
+    grid::GridSpec spec;
+    grid::GridderOptions gridder;
+};
+
+// Errors: those of site_of(), spec_of() and gridder_of().
+[[nodiscard]] Result<VolumeGridding> gridding_of(const stormcellar_grid_options& options,
+                                                 const stormcellar_volume& volume);
+
 // Returns the steps of gridding, or of a mosaic with this overlap, with the settings that the
 // options name. Errors: bad_argument.
 [[nodiscard]] Result<accuracy::Chain> chain_of(const stormcellar_grid_options& options,

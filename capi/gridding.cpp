@@ -76,6 +76,17 @@ Result<grid::GridderOptions> gridder_of(const stormcellar_grid_options& options)
     return gridder;
 }
 
+Result<VolumeGridding> gridding_of(const stormcellar_grid_options& options,
+                                   const stormcellar_volume& volume) {
+    const auto site = site_of(volume);
+    if (!site) return pass_on(site);
+    auto spec = spec_of(options, {*site});
+    if (!spec) return pass_on(spec);
+    const auto gridder = gridder_of(options);
+    if (!gridder) return pass_on(gridder);
+    return VolumeGridding{*site, std::move(*spec), *gridder};
+}
+
 Result<accuracy::Chain> chain_of(const stormcellar_grid_options& options, level2::Moment moment,
                                  std::optional<grid::Overlap> overlap) {
     const auto averaging =

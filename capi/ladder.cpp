@@ -41,23 +41,21 @@ Status measure(const stormcellar_volume* volume, const stormcellar_grid_options*
     *ladder = nullptr;
     const auto all = take(options);
     if (!all) return pass_on(all);
-    const auto site = site_of(*volume);
-    if (!site) return pass_on(site);
-    const auto spec = spec_of(*all, {*site});
-    if (!spec) return pass_on(spec);
-    const auto gridder = gridder_of(*all);
-    if (!gridder) return pass_on(gridder);
+    const auto gridding = gridding_of(*all, *volume);
+    if (!gridding) return pass_on(gridding);
     const auto settings = ladder_options(ladder_settings, *all);
     if (!settings) return pass_on(settings);
     grid::SceneOptions scene_options;
-    scene_options.moment = gridder->moment;
-    scene_options.threads = gridder->threads;
-    auto scene = grid::GridScene::make(volume->source.volume, *site, *spec, scene_options);
+    scene_options.moment = gridding->gridder.moment;
+    scene_options.threads = gridding->gridder.threads;
+    auto scene =
+        grid::GridScene::make(volume->source.volume, gridding->site, gridding->spec, scene_options);
     if (!scene) return pass_on(scene);
     auto rows = grid::run_ladder(*scene, *settings);
     if (!rows) return pass_on(rows);
     *count = rows->size();
-    *ladder = new stormcellar_ladder{grid::value_unit_of(gridder->moment), std::move(*rows)};
+    *ladder =
+        new stormcellar_ladder{grid::value_unit_of(gridding->gridder.moment), std::move(*rows)};
     return {};
 }
 
