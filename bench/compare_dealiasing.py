@@ -136,6 +136,19 @@ def folded_again(raw, radar, truth, nyquist, path):
     return velocity
 
 
+def folds_of(truth, velocity, nyquist):
+    """Returns the right fold numbers, and UNKNOWN where the truth is NaN."""
+    folds = (truth - velocity) / (2 * nyquist)
+    return np.where(np.isfinite(folds), np.round(folds), UNKNOWN)
+
+
+def ours_of_case(options, case, name, others_have):
+    """Returns our results on a case, and notes it if another method has fewer wrong gates."""
+    rungs = ours(options.program, [case], '--case')
+    check(name, rungs['anchored']['wrong_pct'], others_have)
+    return rungs
+
+
 def print_row(*cells):
     print('\t'.join(str(cell) for cell in cells), flush=True)
 
@@ -165,10 +178,9 @@ def compare_cases(options, scratch):
                     found = field(made, 'corrected_velocity')
                 wrong = ~(np.abs(found - truth) < nyquist)
                 row += [f'{100 * wrong[known].mean():.2f}', f'{seconds:.3f}']
-            folds = np.where(known, np.round((truth - velocity) / (2 * nyquist)), UNKNOWN)
-            write_case(scratch / 'case', radar, velocity, folds, nyquist)
-            rungs = ours(options.program, [scratch / 'case'], '--case')
-            check(f'{name} {nyquist}', rungs['anchored']['wrong_pct'], row[::2])
+            case = scratch / 'case'
+            write_case(case, radar, velocity, folds_of(truth, velocity, nyquist), nyquist)
+            rungs = ours_of_case(options, case, f'{name} {nyquist}', row[::2])
             for rung in ('region', 'anchored'):
                 row += [rungs[rung][key] for key in
                         ('wrong_pct', 'seconds', 'marked_wrong_pct', 'marked_right_pct')]
@@ -235,10 +247,9 @@ def compare_sweeps(options, scratch):
                 if method == 'unwrap_phase':
                     turns -= np.nan_to_num(np.nanmedian(turns[known]))
                 row += [f'{100 * (turns[known] != 0).mean():.2f}', f'{seconds:.3f}']
-            folds = np.where(known, np.round((truth - velocity) / (2 * nyquist)), UNKNOWN)
-            write_case(scratch / 'case', radar, velocity, folds, nyquist)
-            rungs = ours(options.program, [scratch / 'case'], '--case')
-            check(f'{name} {nyquist}', rungs['anchored']['wrong_pct'], row[::2])
+            case = scratch / 'case'
+            write_case(case, radar, velocity, folds_of(truth, velocity, nyquist), nyquist)
+            rungs = ours_of_case(options, case, f'{name} {nyquist}', row[::2])
             for rung in ('region', 'anchored'):
                 row += [rungs[rung]['wrong_pct'], rungs[rung]['seconds']]
             print_row(name, nyquist, *row)
