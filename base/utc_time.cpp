@@ -1,9 +1,10 @@
 #include "stormcellar/base/utc_time.h"
 
-#include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
+
+#include "base/parse_number.h"
 
 namespace stormcellar {
 namespace {
@@ -74,21 +75,17 @@ std::optional<milliseconds> parse_relative(std::string_view text) {
     if (text.size() < 3 || text.front() != '-') return std::nullopt;
     const char unit = text.back();
     const std::string_view number_text = text.substr(1, text.size() - 2);
-    std::uint32_t number = 0;
-    const auto [end, error] =
-        std::from_chars(number_text.data(), number_text.data() + number_text.size(), number);
-    if (error != std::errc{} || end != number_text.data() + number_text.size()) {
-        return std::nullopt;
-    }
+    const auto number = parse_number<std::uint32_t>(number_text);
+    if (!number) return std::nullopt;
     switch (unit) {
         case 's':
-            return std::chrono::seconds{number};
+            return std::chrono::seconds{*number};
         case 'm':
-            return std::chrono::minutes{number};
+            return std::chrono::minutes{*number};
         case 'h':
-            return std::chrono::hours{number};
+            return std::chrono::hours{*number};
         case 'd':
-            return days{number};
+            return days{*number};
         default:
             return std::nullopt;
     }

@@ -1,14 +1,13 @@
 // Writes the text of --help and --help-all: examples, then usual options, then all other options.
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/parse_number.h"
 #include "cli/reference/reference.h"
 
 namespace stormcellar::cli {
@@ -22,11 +21,8 @@ constexpr std::size_t margin = 2;
 std::size_t page_width() {
     const char* const asked = std::getenv("COLUMNS");
     if (asked == nullptr) return usual_width;
-    const std::string_view text = asked;
-    std::size_t width = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
-    if (error != std::errc{} || end != text.data() + text.size()) return usual_width;
-    return std::clamp(width, least_width, most_width);
+    const auto width = parse_number<std::size_t>(asked);
+    return width ? std::clamp(*width, least_width, most_width) : usual_width;
 }
 
 // Breaks a text at blanks. Lines after the first begin at this column.

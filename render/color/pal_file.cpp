@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "base/printable.h"
 #include "render/color/built_in_tables.h"
 #include "render/color/color_file.h"
@@ -61,11 +61,10 @@ std::string shown(std::string_view word) {
 
 std::optional<double> number_of(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-    if (!std::isfinite(number) || std::abs(number) > greatest_color_value) return std::nullopt;
-    return number;
+    const auto number = parse_number<double>(word);
+    const bool is_value =
+        number && std::isfinite(*number) && std::abs(*number) <= greatest_color_value;
+    return is_value ? number : std::nullopt;
 }
 
 class PalReader {

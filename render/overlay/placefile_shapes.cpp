@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/parse_number.h"
 #include "base/printable.h"
 #include "render/overlay/shape_file.h"
 #include "render/overlay/shape_values.h"
@@ -37,10 +37,8 @@ std::vector<std::string> fields_of(std::string_view text) {
 }
 
 std::optional<double> number_of(std::string_view text) {
-    double value = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = problem == std::errc{} && end == text.data() + text.size();
-    return is_number && std::isfinite(value) ? std::optional{value} : std::nullopt;
+    const auto value = parse_number<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 constexpr std::size_t longest_line = 10'000;

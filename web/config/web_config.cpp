@@ -1,7 +1,6 @@
 #include "web/config/web_config.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <arpa/inet.h>
@@ -9,6 +8,7 @@
 
 #include "base/byte_size.h"
 #include "base/nearest_name.h"
+#include "base/parse_number.h"
 #include "base/printable.h"
 #include "retrieve/hail/freezing_key.h"
 
@@ -36,11 +36,8 @@ std::string in_lower_case(std::string text) {
 }
 
 std::optional<int> port_of(std::string_view text) {
-    int port = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    if (error != std::errc{} || end != text.data() + text.size() || port < 0 || port > 65'535)
-        return std::nullopt;
-    return port;
+    const auto port = parse_number<int>(text);
+    return port && *port >= 0 && *port <= 65'535 ? port : std::nullopt;
 }
 
 // The host and the port of a text such as "example.org:80" or "[::1]:80". The port is after the

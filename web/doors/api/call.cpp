@@ -1,10 +1,10 @@
 #include "web/doors/api/call.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "base/checksum.h"
 #include "base/floating_point.h"
+#include "base/parse_number.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/text_answer.h"
 
@@ -20,17 +20,9 @@ std::string shown(std::string_view text) {
     return std::string(text.substr(0, most_shown_text));
 }
 
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 Result<double> bounded_number(std::string_view name, std::string_view text, double least,
                               double most) {
-    const auto number = number_of<double>(text);
+    const auto number = parse_number<double>(text);
     if (!number || !is_within(*number, least, most)) {
         return fail(ErrorCode::bad_argument, "{}: a number from {} to {}, not '{}'", name, least,
                     most, shown(text));
@@ -115,7 +107,7 @@ Result<std::int64_t> whole_parameter(const ApiCall& call, std::string_view name,
                                      std::int64_t most, std::int64_t usual) {
     const auto text = call.request.parameter(name);
     if (!text) return usual;
-    const auto number = number_of<std::int64_t>(*text);
+    const auto number = parse_number<std::int64_t>(*text);
     if (!number || *number < least || *number > most) {
         return fail(ErrorCode::bad_argument, "{}: a whole number from {} to {}, not '{}'", name,
                     least, most, shown(*text));
@@ -192,9 +184,9 @@ Result<grid::GeoPoint> place_parameter(const ApiCall& call, std::string_view nam
 Result<std::pair<std::size_t, std::size_t>> range_of_text(std::string_view name,
                                                           std::string_view text) {
     const std::size_t dash = text.find('-');
-    const auto first = number_of<std::uint32_t>(text.substr(0, dash));
+    const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
     const auto last =
-        dash == std::string_view::npos ? first : number_of<std::uint32_t>(text.substr(dash + 1));
+        dash == std::string_view::npos ? first : parse_number<std::uint32_t>(text.substr(dash + 1));
     if (!first || !last || *first > *last) {
         return fail(ErrorCode::bad_argument, "{}: FIRST-LAST, not '{}'", name, shown(text));
     }

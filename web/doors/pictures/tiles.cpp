@@ -1,13 +1,13 @@
 #include "web/doors/pictures/tiles.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/parse_number.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/text_answer.h"
@@ -22,12 +22,9 @@ using TileJson = nlohmann::ordered_json;
 constexpr std::size_t segments_of_a_tile = 7;  // tiles, domain, layer, time, z, x, y.png
 
 std::optional<int> whole_below(std::string_view text, int end) {
-    int number = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_plain = text == "0" || !text.starts_with('0');
-    if (error != std::errc{} || rest != text.data() + text.size() || !is_plain) return std::nullopt;
-    if (number < 0 || number >= end) return std::nullopt;
-    return number;
+    const auto number = parse_index(text);
+    if (!number || *number >= static_cast<std::size_t>(end)) return std::nullopt;
+    return static_cast<int>(*number);
 }
 
 Answer json_of_pictures(const Request& request, const TileJson& document) {

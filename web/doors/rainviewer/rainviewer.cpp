@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/parse_number.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/cache/grid_name.h"
 #include "web/data/grids/text_answer.h"
@@ -23,14 +23,6 @@ constexpr std::chrono::hours listed{2};
 constexpr std::chrono::minutes between_frames{10};
 constexpr int least_gray = 1, most_gray = 127, gray_of_zero_dbz = 32;
 constexpr int most_color = 8, color_of_classes = 6;
-
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-    Number number{};
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 std::int64_t seconds_since_1970(UtcTime time) {
     return std::chrono::floor<std::chrono::seconds>(time).time_since_epoch().count();
@@ -53,7 +45,7 @@ render::ColorTable gray_levels() {
 
 // Reads COLOR, and OPTIONS in the form SMOOTH_SNOW.
 Result<MapStyle> style_of(std::string_view color, std::string_view options) {
-    const auto scheme = number_in<int>(color);
+    const auto scheme = parse_number<int>(color);
     if (!scheme || *scheme < 0 || *scheme > most_color)
         return fail(ErrorCode::not_found, "a color scheme is a number from 0 to {}", most_color);
     constexpr std::array<std::string_view, 4> known{"0_0", "0_1", "1_0", "1_1"};
@@ -96,7 +88,7 @@ Result<render::PlaneWindow> window_named(std::string_view size, std::string_view
                     deepest_zoom);
     render::PlaneWindow window = window_of(*tile);
     if (!is_place) return window;
-    const auto latitude = number_in<double>(x), longitude = number_in<double>(y);
+    const auto latitude = parse_number<double>(x), longitude = parse_number<double>(y);
     if (!latitude || !longitude || !(std::abs(*latitude) < most_latitude_deg) ||
         !(std::abs(*longitude) <= 180))
         return fail(ErrorCode::not_found, "there is no such latitude and longitude on this map");
@@ -216,7 +208,7 @@ Result<UtcTime> RainViewerDoor::time_of(const Asked& asked) const {
     const Grids& grids = pictures_->grids();
     if (time_text(asked.path) == "latest")
         return time_of_grid(grids, asked.domain, reflectivity, "latest");
-    const auto seconds = number_in<std::int64_t>(asked.path[2]);
+    const auto seconds = parse_number<std::int64_t>(asked.path[2]);
     if (!seconds || *seconds < 0 || *seconds > seconds_since_1970(cache::last_possible_time))
         return fail(ErrorCode::not_found, "a time is a number of seconds since 1970");
     const UtcTime time{std::chrono::seconds{*seconds}};

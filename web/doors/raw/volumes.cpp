@@ -1,11 +1,11 @@
 #include "web/doors/raw/volumes.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/parse_number.h"
 #include "web/doors/pictures/link_list.h"
 #include "web/doors/raw/raw_answers.h"
 
@@ -31,13 +31,11 @@ Result<RawRange> range_of_query(const Request& request) {
         *bound = *time;
     }
     if (const auto text = request.parameter("limit")) {
-        const auto [end, error] =
-            std::from_chars(text->data(), text->data() + text->size(), range.most);
-        if (error != std::errc{} || end != text->data() + text->size() || range.most < 1 ||
-            range.most > highest_limit) {
+        const auto limit = parse_number<decltype(range.most)>(*text);
+        if (!limit || *limit < 1 || *limit > highest_limit)
             return fail(ErrorCode::bad_argument, "limit: give a number from 1 to {}",
                         highest_limit);
-        }
+        range.most = *limit;
     }
     return range;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/parse_number.h"
 #include "level2/containers/ldm_framer.h"
 #include "stormcellar/base/utc_time.h"
 #include "web/http/request.h"
@@ -67,11 +67,10 @@ std::string s3_chunk_key(const RawVolume& volume, int number, level2::ChunkKind 
 }
 
 std::optional<int> chunk_number_of(std::string_view text, int most) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size() &&
-                           text.size() <= longest_number && number >= 1 && number <= most;
-    return is_number ? std::optional{number} : std::nullopt;
+    const auto number = parse_number<int>(text);
+    const bool is_chunk =
+        number && text.size() <= longest_number && *number >= 1 && *number <= most;
+    return is_chunk ? number : std::nullopt;
 }
 
 // Returns true for volumes whose names tell that they consist of LDM records.

@@ -1,10 +1,10 @@
 #include "web/doors/s3/listing.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "base/parse_number.h"
 #include "web/doors/s3/s3.h"
 #include "web/doors/xml_writer.h"
 
@@ -146,11 +146,9 @@ Result<S3ListOptions> read_s3_list_options(const Request& request) {
             return fail(ErrorCode::bad_argument, "A key has at most {} bytes.", longest_key);
     }
     if (const auto text = request.parameter("max-keys"); text && !text->empty()) {
-        const auto [end, error] =
-            std::from_chars(text->data(), text->data() + text->size(), options.most);
-        if (error != std::errc{} || end != text->data() + text->size())
-            return fail(ErrorCode::bad_argument, "max-keys must be a number from 0 on.");
-        options.most = std::min(options.most, most_keys);
+        const auto most = parse_number<decltype(options.most)>(*text);
+        if (!most) return fail(ErrorCode::bad_argument, "max-keys must be a number from 0 on.");
+        options.most = std::min(*most, most_keys);
     }
     if (const auto encoding = request.parameter("encoding-type"); encoding && !encoding->empty()) {
         if (*encoding != "url") return fail(ErrorCode::bad_argument, "encoding-type must be url.");

@@ -1,10 +1,10 @@
 #include "web/doors/thredds/query.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <unordered_set>
 
+#include "base/parse_number.h"
 #include "base/printable.h"
 #include "web/doors/thredds/w3c_times.h"
 
@@ -35,11 +35,9 @@ std::optional<std::string_view> given(const Request& request, std::string_view n
 }
 
 Result<double> degrees_of(std::string_view name, std::string_view text, double most) {
-    double value = 0;
     if (text.starts_with('+') || text.starts_with(' ')) text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size();
-    if (is_number && std::isfinite(value) && std::abs(value) <= most) return value;
+    const auto value = parse_number<double>(text);
+    if (value && std::isfinite(*value) && std::abs(*value) <= most) return *value;
     return fail(ErrorCode::bad_argument, "{} must be a number of degrees from -{} to {}.", name,
                 most, most);
 }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/number_list.h"
+#include "base/parse_number.h"
 #include "base/printable.h"
 #include "render/color/built_in_tables.h"
 #include "web/doors/thredds/w3c_times.h"
@@ -45,13 +46,11 @@ WmsRead<int> whole_number(const WmsParameters& parameters, std::string_view name
                           int most) {
     const auto text = parameters.find(name);
     if (!text) return wms_fault("", fmt::format("{} is missing.", name));
-    int number = 0;
-    const auto [rest, error] = std::from_chars(text->data(), text->data() + text->size(), number);
-    if (error != std::errc{} || rest != text->data() + text->size() || number < least ||
-        number > most)
+    const auto number = parse_number<int>(*text);
+    if (!number || *number < least || *number > most)
         return wms_fault("", fmt::format("{} is a whole number from {} to {}, not '{}'.", name,
                                          least, most, shown(*text)));
-    return number;
+    return *number;
 }
 
 // Reads a color such as "0xFFFFFF", which is the standard's form.

@@ -1,7 +1,6 @@
 #include "web/doors/zarr/station_door.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "base/checksum.h"
+#include "base/parse_number.h"
 #include "export/zarr_chunks.h"
 #include "stormcellar/base/station_table.h"
 #include "stormcellar/catalog/read_cataloged.h"
@@ -26,21 +26,13 @@ constexpr std::string_view sweep_prefix = "sweep_";
 // The notes of a kept answer that says that a chunk has only fill values.
 constexpr std::string_view only_fill = "fill";
 
-std::optional<std::size_t> index_of_word(std::string_view word) {
-    std::size_t number = 0;
-    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || rest != word.data() + word.size()) return std::nullopt;
-    if (word.size() > 1 && word.starts_with('0')) return std::nullopt;
-    return number;
-}
-
 // Returns the indices in a key such as c/0/1 of this array; none if it has no such chunk.
 std::optional<std::vector<std::size_t>> chunk_indices(std::span<const std::string_view> key,
                                                       const ZarrArray& array) {
     if (key.size() != array.shape.size() + 1 || key.front() != "c") return std::nullopt;
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < array.shape.size(); ++i) {
-        const auto index = index_of_word(key[i + 1]);
+        const auto index = parse_index(key[i + 1]);
         if (!index || *index >= array.chunks_along(i)) return std::nullopt;
         indices.push_back(*index);
     }
@@ -111,7 +103,7 @@ struct StationDoor::Named {
             if (depth > 0)
                 named.pattern = &*std::ranges::find(tree.patterns, path[0], &StationPattern::name);
             if (depth == 2)
-                named.place = index_of_word(path[1].substr(sweep_prefix.size())).value_or(0);
+                named.place = parse_index(path[1].substr(sweep_prefix.size())).value_or(0);
             return named;
         }
     }

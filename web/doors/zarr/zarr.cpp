@@ -1,12 +1,12 @@
 #include "web/doors/zarr/zarr.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include <fmt/ranges.h>
 
 #include "base/checksum.h"
+#include "base/parse_number.h"
 #include "export/cf_attributes.h"
 #include "export/gzip_bytes.h"
 #include "export/zarr_chunks.h"
@@ -22,14 +22,6 @@ namespace stormcellar::web {
 namespace {
 
 constexpr std::size_t segments_of_a_group = 3;  // zarr, domain, moment
-
-std::optional<std::size_t> whole_number(std::string_view text) {
-    std::size_t number = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || rest != text.data() + text.size()) return std::nullopt;
-    if (text.size() > 1 && text.starts_with('0')) return std::nullopt;
-    return number;
-}
 
 Answer zarr_document(const Request& request, const ZarrJson& document) {
     return text_answer_to(request, "application/json", zarr::text_of(document));
@@ -179,7 +171,7 @@ std::optional<std::vector<std::size_t>> ZarrDoor::place_in(
     }
     std::vector<std::size_t> place;
     for (const std::string_view word : words) {
-        const auto number = whole_number(word);
+        const auto number = parse_index(word);
         if (!number) return std::nullopt;
         place.push_back(*number);
     }
