@@ -203,6 +203,7 @@ for (const [wide, high] of [[390, 844], [1000, 700], [1440, 900]])
   test(`panes have room at ${wide} pixels`, async ({ viewer, begin }) => {
     await viewer.resize(wide, high);
     await viewer.open(`${begin}&view=2d&zoom=2&moment=REF&pane=VEL&pane=ZDR&pane=RHO`);
+    await settled(viewer);
     const boxes = await boxesOf(viewer);
     for (const { width, height } of boxes) expect(Math.min(width, height)).toBeGreaterThan(150);
     const foot = await viewer.byId('foot').boundingBox();

@@ -60,7 +60,7 @@ const firefox = {
 //   a first picture as in frame  look, pictures        overlays                 overlays
 //   velocity for work            dealiased, glance     plain words, keys        words, glance
 //   age, health, progress        honest, scan          everybody, any window    access, glance
-//   loading, without WebGL       stills
+//   loading, without WebGL       stills                never freezes          busy
 export default defineConfig({
   testDir: '.',
   outputDir: join(resolve(root, process.env.STORMCELLAR_BUILD || 'build/release'), 'tests/viewer/results'),
@@ -74,7 +74,7 @@ export default defineConfig({
   projects: [
     {
       name: 'storms',
-      testMatch: /(look|flat|panes|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|stills|glance|cells|access)\.spec\.mjs/,
+      testMatch: /(look|flat|panes|moments|words|scan|parts|layers|readout|share|places|editor|honest|pictures|sweeps|stills|glance|cells|access|busy)\.spec\.mjs/,
       grepInvert: /@sequence/,
       use: { volumes: storms },
     },

@@ -7,6 +7,7 @@ import { Governor } from '../renderer/governor';
 import { Rung, rungs, usualRungs } from '../renderer/ladder';
 import { DrawnLayers } from '../renderer/layer_passes';
 import { Frame } from '../renderer/frame';
+import { Picture, drawParts } from '../renderer/picture';
 import { Renderer } from '../renderer/renderer';
 import { shownUnit } from '../tables/units';
 import { boxOf } from '../scene/grid_box';
@@ -25,12 +26,13 @@ import { addSkeleton } from './skeleton';
 import { Streaming } from './streaming';
 import { SweepStore } from './sweep_store';
 import { texts } from './texts';
+import { Turns } from './turns';
 import { Windows } from './windows';
 
 const movingFrameMs = 50;
 const mostMovingDE = 20;
-const leastStillAfterMs = 180;
-const mostStillAfterMs = 1000;
+const stillAfterMs = 180; // how long the view must rest before a fine picture
+const mostWholeMs = 60; // a picture that takes longer is drawn in parts
 const leastBetweenMs = 150; // between pictures while bricks come
 const longestWishMs = 30_000;
 const sweepsOfBudget = 0.2; // share of the page's memory for sweeps
@@ -74,11 +76,11 @@ export class Drawing {
     private governor = new Governor(usualRungs, movingFrameMs, mostMovingDE);
     private movedAt = 0;
     private wasPlaying = false;
-    private isDrawing = false;
+    private turns = new Turns(() => this.drawNow());
     private isWaiting = false; // a later picture is due, because bricks have come
+    private restTimer = 0; // draws a fine picture after the view has moved
     private lastMs = 0; // duration of the last frame
     private frames = 0;
-    private isFinal = false;
     private wish: { act: () => void } | null = null; // action that waits for a fine picture
 
     constructor(
@@ -92,10 +94,14 @@ export class Drawing {
         app.loader.besides = () => this.panes.reduce((sum, { windows }) => sum + windows.bytes, 0);
         app.alongside = (next, isAhead) => this.alongside(next, isAhead);
         app.beside = (next) => this.others.map((pane) => pane.beside(next));
-        app.isShownWhole = () => this.panes.every(({ layers }) => !layers.isWaiting);
+        app.isShownWhole = () => !this.turns.isBusy && this.panes.every(({ layers }) => !layers.isWaiting);
         app.repeats = (pane = app.state.active) => this.panes[pane]?.layers.repeats() ?? null;
         app.on('cells', () => this.draw());
-        app.on('shown', () => this.show());
+        app.on('shown', () => {
+            // Draw a fast picture first if pictures are shown faster than fine pictures can be drawn.
+            if (this.turns.stop()) this.movedAt = performance.now();
+            this.turns.replace(() => this.show());
+        });
         app.on('units', () => {
             if (app.shown) void this.ground.show(app.shown);
         });
@@ -106,6 +112,7 @@ export class Drawing {
         app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
         app.on('restored', () => {
+            this.turns.isStopped = true;
             renderer.forget();
             this.streaming.forget();
             this.ground.forget();
@@ -218,15 +225,13 @@ export class Drawing {
     // Call while the view moves. Draws fast pictures, and a fine picture once the view rests.
     move(): void {
         this.movedAt = performance.now();
+        this.turns.stop();
         this.draw();
     }
 
     draw(): void {
-        this.isFinal = false;
         delete document.documentElement.dataset['drawn'];
-        if (this.isDrawing) return;
-        this.isDrawing = true;
-        requestAnimationFrame(() => this.drawNow());
+        this.turns.ask();
     }
 
     // Draws a fine picture when playback stops, because playback draws fast pictures.
@@ -234,11 +239,6 @@ export class Drawing {
         const { isPlaying } = this.app.player;
         if (this.wasPlaying && !isPlaying) this.draw();
         this.wasPlaying = isPlaying;
-    }
-
-    // Returns how long the view must rest before a fine picture. The time is longer if frames take long.
-    private get stillAfterMs(): number {
-        return Math.min(mostStillAfterMs, Math.max(leastStillAfterMs, 2 * this.lastMs));
     }
 
     // Draws after a pause, because bricks come faster than pictures can be drawn.
@@ -312,48 +312,55 @@ export class Drawing {
         };
     }
 
-    private render(frames: readonly (Frame | null)[], first: Frame): void {
-        if (frames.length === 1) return this.renderer.draw(first);
+    private pictureOf(frames: readonly (Frame | null)[], first: Frame): Picture {
+        if (frames.length === 1) {
+            const { width, height } = first.geometry;
+            return { width, height, panes: [{ frame: first, place: { left: 0, top: 0, width, height } }] };
+        }
         const { places } = this;
         const ratio = pixelRatio();
-        this.renderer.drawPanes(
-            Math.round(this.picture.clientWidth * ratio),
-            Math.round(this.picture.clientHeight * ratio),
-            frames.map((frame, i) => ({ frame, place: places[i]! })),
-        );
+        return {
+            width: Math.round(this.picture.clientWidth * ratio),
+            height: Math.round(this.picture.clientHeight * ratio),
+            panes: frames.map((frame, i) => ({ frame, place: places[i]! })),
+        };
     }
 
-    private drawNow(): void {
-        this.isDrawing = false;
-        const { app, pane } = this;
+    private async drawNow(): Promise<void> {
+        const { app, pane, renderer } = this;
         const { shownTable: table, shown, state } = app;
         if (!table || !shown) return;
-        const isMoving = !this.wish && performance.now() - this.movedAt < this.stillAfterMs;
-        const rung = this.rung(shown.loaded, isMoving || (app.player.isPlaying && !this.wish));
+        const isMoving = !this.wish && performance.now() - this.movedAt < stillAfterMs;
+        const isFast = isMoving || (app.player.isPlaying && !this.wish);
+        this.turns.isFine = !isFast;
+        window.clearTimeout(this.restTimer);
+        const rung = this.rung(shown.loaded, isFast);
         this.stream(rung);
         const frames = this.panes.map((one) => this.frameOf(one, rung, isMoving));
         const frame = frames[pane.index];
         if (!frame) return;
         const countsFetches = state.countsFetches && !isMoving && frames.length === 1;
-        const fetches = countsFetches ? this.renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
+        const fetches = countsFetches ? renderer.fetchesAPixel(frame) / rung.grain ** 2 : null;
         const begun = performance.now();
-        this.render(frames, frame);
-        this.renderer.finish();
+        const predictedMs = this.governor.predictedMs(rung) ?? (renderer.isSoftware ? Infinity : 0);
+        const parts = renderer.draw(this.pictureOf(frames, frame), predictedMs <= mostWholeMs);
+        const drawn = () => renderer.drawn();
+        if (!(await drawParts(parts, drawn, () => this.turns.isStopped))) return;
+        this.names.draw();
+        this.bar.show(table, shownUnit(table.unit, state.units), state.least, endsOf(shown.moment));
+        await drawn();
         const ms = Math.round(performance.now() - begun);
         this.governor.took(rung, ms);
         this.lastMs = ms;
-        this.names.draw();
-        this.bar.show(table, shownUnit(table.unit, state.units), state.least, endsOf(shown.moment));
         this.tell({ frameMs: ms, rung: rung.name, frames: ++this.frames });
         for (const act of this.pictureChanged) act();
-        if (isMoving) window.setTimeout(() => this.draw(), this.stillAfterMs);
-        else if (!this.isFinal && this.isComplete) this.end(shown, rung, ms, fetches);
+        if (isMoving) this.restTimer = window.setTimeout(() => this.draw(), stillAfterMs);
+        else if (!this.turns.isOutdated && this.isComplete) this.end(shown, rung, ms, fetches);
     }
 
     // Reports how the complete picture was drawn. If no bricks are missing, carries out the action in `wish`.
     private end(shown: Shown, rung: Rung, ms: number, fetches: number | null): void {
         const { app } = this;
-        this.isFinal = true;
         const detail = this.streaming.detail(shown.loaded);
         const { missing } = this.streaming;
         const ofLayers = this.windows.coarsest(shown.loaded);
@@ -377,7 +384,7 @@ export class Drawing {
 
     // Draws names and marks again, but not the scene.
     drawMarks(): void {
-        if (this.app.shown && !this.isDrawing) this.names.draw();
+        if (this.app.shown && !this.turns.isAsked) this.names.draw();
     }
 
     // Publishes figures for programs that drive the page.

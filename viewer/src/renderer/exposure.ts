@@ -48,10 +48,17 @@ function smallView(geometry: ViewGeometry): RayView {
     };
 }
 
+interface Target {
+    framebuffer: WebGLFramebuffer;
+    texture: WebGLTexture;
+    pixels: WebGLBuffer; // the small picture, once it is drawn
+    width: number;
+    height: number;
+}
+
 export class Exposure {
     value = 1;
-    private target: { framebuffer: WebGLFramebuffer; texture: WebGLTexture; width: number; height: number } | null =
-        null;
+    private target: Target | null = null;
 
     constructor(private gl: WebGL2RenderingContext) {}
 
@@ -63,12 +70,13 @@ export class Exposure {
         if (!this.target) return;
         this.gl.deleteFramebuffer(this.target.framebuffer);
         this.gl.deleteTexture(this.target.texture);
+        this.gl.deleteBuffer(this.target.pixels);
         this.target = null;
     }
 
-    private targetOf(width: number, height: number): WebGLFramebuffer {
+    private targetOf(width: number, height: number): Target {
         const { gl } = this;
-        if (this.target?.width === width && this.target.height === height) return this.target.framebuffer;
+        if (this.target?.width === width && this.target.height === height) return this.target;
         this.release();
         const texture = gl.createTexture()!;
         gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -76,22 +84,37 @@ export class Exposure {
         const framebuffer = gl.createFramebuffer()!;
         gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
         gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-        this.target = { framebuffer, texture, width, height };
-        return framebuffer;
+        const pixels = gl.createBuffer()!;
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, pixels);
+        gl.bufferData(gl.PIXEL_PACK_BUFFER, 4 * width * height, gl.STREAM_READ);
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+        return (this.target = { framebuffer, texture, pixels, width, height });
     }
 
-    // Sets `value`. `draw` draws the small picture that is measured, into a framebuffer that stays bound.
-    measure(geometry: ViewGeometry, draw: (small: RayView) => void): void {
+    // Begins to draw the small picture that is measured. `draw` draws it into a framebuffer that stays bound.
+    begin(geometry: ViewGeometry, draw: (small: RayView) => void): void {
         const { gl } = this;
         const small = smallView(geometry);
         const [width, height] = [Math.ceil(small.width), Math.ceil(small.height)];
-        gl.bindFramebuffer(gl.FRAMEBUFFER, this.targetOf(width, height));
+        const { framebuffer, pixels } = this.targetOf(width, height);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
         gl.viewport(0, 0, width, height);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT);
         draw(small);
-        const pixels = new Uint8Array(4 * width * height);
-        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, pixels);
+        gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, 0);
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    }
+
+    // Sets `value` by the small picture. Waits if the graphics processor has not drawn it.
+    end(): void {
+        const { gl, target } = this;
+        if (!target) return;
+        const pixels = new Uint8Array(4 * target.width * target.height);
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, target.pixels);
+        gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, pixels);
+        gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
         this.value = exposureOf(pixels);
     }
 }

@@ -44,6 +44,11 @@ export class Governor {
         return this.moving;
     }
 
+    // Returns how long a frame on this rung should take, in ms; null until a frame has been measured.
+    predictedMs({ cost }: Rung): number | null {
+        return this.firstRungMs === null ? null : cost * this.firstRungMs;
+    }
+
     took(rung: Rung, ms: number): void {
         const unit = ms / rung.cost;
         this.firstRungMs = this.firstRungMs === null ? unit : this.firstRungMs + weight * (unit - this.firstRungMs);

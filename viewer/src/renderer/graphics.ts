@@ -134,10 +134,15 @@ export class Graphics {
         this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, this.target);
     }
 
-    // Waits until the graphics processor has drawn everything.
-    finish(): void {
-        const pixel = new Uint8Array(4);
-        this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
+    // Resolves when the graphics processor has drawn everything, or when the context is lost.
+    async drawn(): Promise<void> {
+        const { gl } = this;
+        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        if (!fence) return;
+        gl.flush();
+        do await new Promise((done) => window.setTimeout(done, 1));
+        while (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED);
+        gl.deleteSync(fence);
     }
 }
 

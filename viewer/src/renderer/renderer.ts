@@ -1,9 +1,8 @@
-// Draws ground, map lines, layers and volume with WebGL2, in one picture or in several panes.
+// Draws ground, map lines, layers and volume with WebGL2, in one frame or in several panes.
 
 import { LoadedGrid } from '../atlas/loaded_grid';
 import { ViewGeometry } from '../camera/geometry';
 import { MapLines } from '../scene/ground_lines';
-import { PanePlace } from '../scene/pane_places';
 import { Frame } from './frame';
 import { Graphics } from './graphics';
 import { GridTextures, UploadedGrid } from './grid_textures';
@@ -12,6 +11,7 @@ import { DrawnLayers, LayerPasses, hasSolids } from './layer_passes';
 import { LinePass } from './line_pass';
 import { PanePasses } from './pane_passes';
 import { PaneTarget } from './pane_target';
+import { Parts, Picture, inStrips } from './picture';
 import { airProgram, groundProgram } from './shader_programs';
 import { shades } from './shades';
 import { WaterMask, WaterTexture } from './water_texture';
@@ -24,6 +24,7 @@ export class Renderer {
     private grids: GridTextures;
     private passes: PanePasses[]; // of each pane
     private paneTarget: PaneTarget;
+    private laidOut = ''; // the places of the panes on the canvas
     private lines: LinePass;
     private water: WaterTexture;
 
@@ -62,6 +63,7 @@ export class Renderer {
         this.grids.forget();
         this.paneTarget.forget();
         this.passes = [new PanePasses(this.graphics, this.grids)];
+        this.laidOut = '';
     }
 
     // Takes the grids of all panes.
@@ -84,36 +86,60 @@ export class Renderer {
         this.canvas.height = height;
     }
 
-    // Draws a picture that fills the canvas.
-    draw(frame: Frame): void {
-        this.resize(frame.geometry.width, frame.geometry.height);
-        this.begin([frame]);
-        this.drawFrame(frame, this.passes[0]!);
+    // Draws a picture. A whole picture is drawn at once, except that its light is measured first. Any other picture is
+    // drawn in strips, and each frame is on the canvas only when it is complete.
+    *draw(picture: Picture, isWhole: boolean): Parts {
+        const { panes } = picture;
+        const frames = panes.map(({ frame }) => frame);
+        this.begin(frames);
+        const isDirect = isWhole && panes.length === 1;
+        if (isDirect) this.paneTarget.release();
+        for (const [i, frame] of frames.entries()) {
+            const passes = (this.passes[i] ??= new PanePasses(this.graphics, this.grids));
+            if (frame?.hasVolume && frame.layers?.falls && !frame.keepsExposure)
+                yield* passes.volume.measureLight(frame);
+            if (frame && !isDirect && !isWhole) yield* this.drawStrips(frame, passes);
+            this.layOut(picture);
+            if (frame && isDirect) this.drawFrame(frame, passes);
+            else if (frame) {
+                if (isWhole) this.drawToTarget(frame, passes, [0, frame.geometry.height]);
+                this.paneTarget.copy(panes[i]!.place, picture.height, frame.grain > 1);
+            }
+        }
     }
 
-    // Draws panes into a picture of a size. A pane without a frame stays empty. A coarse frame is enlarged to
-    // its place.
-    drawPanes(width: number, height: number, panes: readonly { frame: Frame | null; place: PanePlace }[]): void {
+    private *drawStrips(frame: Frame, passes: PanePasses): Parts {
+        yield* inStrips(frame.geometry.height, (from, to) => this.drawToTarget(frame, passes, [from, to]));
+    }
+    // Draws rows of a frame into the target of panes.
+    private drawToTarget(frame: Frame, passes: PanePasses, [from, to]: [number, number]): void {
+        const { gl, graphics } = this;
+        const { width, height } = frame.geometry;
+        graphics.target = this.paneTarget.take(width, height);
+        graphics.drawToPicture();
+        gl.enable(gl.SCISSOR_TEST);
+        gl.scissor(0, from, width, to - from);
+        this.drawFrame(frame, passes);
+        gl.disable(gl.SCISSOR_TEST);
+        graphics.target = null;
+        graphics.drawToPicture();
+    }
+
+    // Gives the canvas the size of the picture. Clears it if panes are at other places than before.
+    private layOut({ width, height, panes }: Picture): void {
         const { gl } = this;
+        const laidOut = JSON.stringify([width, height, panes.map(({ frame, place }) => [frame !== null, place])]);
+        if (laidOut === this.laidOut) return;
+        this.laidOut = laidOut;
         this.resize(width, height);
-        this.begin(panes.map(({ frame }) => frame));
+        if (panes.length === 1) return;
         gl.clearColor(...gapColor, 1);
         gl.clear(gl.COLOR_BUFFER_BIT);
-        panes.forEach(({ frame, place }, i) => {
-            if (!frame) return;
-            const passes = (this.passes[i] ??= new PanePasses(this.graphics, this.grids));
-            this.graphics.target = this.paneTarget.take(frame.geometry.width, frame.geometry.height);
-            this.graphics.drawToPicture();
-            this.drawFrame(frame, passes);
-            this.graphics.target = null;
-            this.paneTarget.copy(place, height, frame.grain > 1);
-        });
     }
 
     // Releases what the last picture needed and these frames do not need.
     private begin(frames: readonly (Frame | null)[]): void {
         for (const passes of this.passes.splice(frames.length)) passes.release();
-        if (frames.length < 2) this.paneTarget.release();
         this.grids.keepOthers(frames.flatMap((frame) => [frame?.layers?.surface?.of, frame?.layers?.rotation]));
     }
 
@@ -145,8 +171,6 @@ export class Renderer {
             this.drawAir(frame, passes, uploaded, layers, layers.air);
         if (isSolid) passes.showSolids(geometry);
         if (frame.hasVolume) {
-            if (layers?.falls && !frame.keepsExposure) volume.measureLight(frame);
-            gl.enable(gl.BLEND);
             volume.draw(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
         }
         if (layers?.rotation) surfaces.drawRotation(frame, layers.rotation);
@@ -155,10 +179,11 @@ export class Renderer {
     // Returns the mean number of texels that the volume reads for a pixel. Draws over the picture.
     fetchesAPixel(frame: Frame): number {
         const gl = this.gl;
-        this.draw({ ...frame, hasGround: false, hasVolume: false, layers: null });
+        const { width, height } = frame.geometry;
+        this.resize(width, height);
+        this.drawFrame({ ...frame, hasGround: false, hasVolume: false, layers: null }, this.passes[0]!);
         gl.disable(gl.BLEND);
         this.passes[0]!.volume.draw({ ...frame, layers: null }, { countsFetches: true });
-        const { width, height } = frame.geometry;
         const pixels = new Uint8Array(4 * width * height);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
         let fetches = 0;
@@ -223,9 +248,9 @@ export class Renderer {
     showLines(all: MapLines[]): void {
         this.lines.show(all);
     }
-    // Waits until the graphics processor has drawn everything.
-    finish(): void {
-        this.graphics.finish();
+    // Resolves when the graphics processor has drawn everything.
+    drawn(): Promise<void> {
+        return this.graphics.drawn();
     }
 
     // Begins to compile the programs of the first picture, before its data have come.

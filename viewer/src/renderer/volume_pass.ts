@@ -11,6 +11,7 @@ import { Graphics } from './graphics';
 import { GridTextures } from './grid_textures';
 import { bindGrid, levelSpacingM, slicedDepths } from './grid_uniforms';
 import { LayerPasses } from './layer_passes';
+import { Parts } from './picture';
 import { VolumeVariant, volumeProgram } from './shader_programs';
 
 // Inputs of a transfer function except the step: table, first value and step of codes, opacity, and least value.
@@ -92,14 +93,15 @@ export class VolumePass {
     }
 
     // Measures the exposure of the lit echo in a small picture.
-    measureLight(frame: Frame): void {
+    *measureLight(frame: Frame): Parts {
         const { gl } = this;
-        this.exposure.measure(frame.geometry, (small) => {
+        this.exposure.begin(frame.geometry, (small) => {
             gl.disable(gl.BLEND);
             this.draw(frame, { isLit: true, measuresLight: true }, small);
         });
         this.graphics.drawToPicture();
-        gl.viewport(0, 0, frame.geometry.width, frame.geometry.height);
+        yield;
+        this.exposure.end();
     }
 
     // Returns the transfer function for a step, and the factor for its optical depths.
