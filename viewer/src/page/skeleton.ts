@@ -52,13 +52,14 @@ export function addSkeleton(
         document.documentElement.dataset['skeleton'] = app.state.domain;
     };
     app.on('choices', () => {
-        const { domain, moment, time } = app.state;
+        const { domain, moment } = app.state;
         const isOver = () => app.shown !== null || app.state.domain !== domain;
         if (app.shown || domain === '') return;
         element('title').textContent = texts.loadingOf(domain, titleOf(moment));
         if (isRegion(domain)) return;
         const show = async () => {
-            const facts = await gridFacts(domain, moment, time);
+            // The server may have no grid of the wanted time. All grids of a domain are at the same place.
+            const facts = await gridFacts(domain, moment, 'latest');
             const place = placeOfFacts(facts);
             const lines = await ask(domain, place);
             const [latitudeDeg, longitudeDeg] = facts.center;
