@@ -9,13 +9,13 @@ import typing
 from . import _library
 from ._library import Handle, call, sized
 from .grids import grid_options
-from .volume import Volume
+from .volume import volume_of
 
 if typing.TYPE_CHECKING:
     import pandas
     import numpy.typing as npt
 
-    from .volume import Source
+    from .volume import Source, Volume
 
 
 class Table(list[dict[str, typing.Any]]):
@@ -62,7 +62,7 @@ def accuracy(source: Volume | Source, moment: str = "REF", *, columns: int = 0, 
     >>> [row["name"] for row in table if row["step"] == "interpolation"]
     ['nearest', 'linear up the column', 'eight-point', 'beam-weighted']
     """
-    volume = source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
+    volume = volume_of("accuracy", source, options, moments=moment, threads=threads)
     asked = grid_options(moment, columns, rows, spacing_m, levels_m, center, None, False, average_in_z, threads)
     how = sized(_library.LadderOptions, columns=sample, rounds=rounds)
     pointer, count = ctypes.c_void_p(), ctypes.c_size_t()

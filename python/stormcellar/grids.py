@@ -11,14 +11,14 @@ import numpy.typing as npt
 
 from . import _library
 from ._library import Handle, call, sized
-from .volume import Volume
+from .volume import volume_of
 
 if typing.TYPE_CHECKING:
     from collections.abc import Iterable
 
     import xarray
 
-    from .volume import Source
+    from .volume import Source, Volume
 
 
 class CellState(enum.IntEnum):
@@ -179,7 +179,7 @@ def grid(source: Volume | Source, moment: str = "REF", *, columns: int = 0, rows
     >>> stormcellar.grid(FILE, "VEL", columns=100, rows=100, center=(35.33, -97.49))
     <Grid VEL, 100 x 100 x 32 cells of 1000 m>
     """
-    volume = source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
+    volume = volume_of("grid", source, options, moments=moment, threads=threads)
     asked = grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
                      threads)
     pointer = ctypes.c_void_p()
@@ -211,8 +211,7 @@ def mosaic(sources: Iterable[Grid | Volume | Source], moment: str = "REF", *, co
     if sources and all(isinstance(source, Grid) for source in sources):
         call("grid_merge", _pointers(sources), len(sources), ctypes.byref(rule), ctypes.byref(pointer))
         return Grid(pointer)
-    volumes = [source if isinstance(source, Volume) else Volume(source, moments=moment, threads=threads, **options)
-               for source in sources]
+    volumes = [volume_of("mosaic", source, options, moments=moment, threads=threads) for source in sources]
     asked = grid_options(moment, columns, rows, spacing_m, levels_m, center, interpolation, mean_of_cell, average_in_z,
                      threads)
     call("mosaic_make", _pointers(volumes), len(volumes), ctypes.byref(asked), ctypes.byref(rule),

@@ -39,7 +39,7 @@ def draw(source: Volume | Grid | Source, product: str = "volume", moment: str | 
     with the same bytes. With `pixels=True`, returns an array of uint8 instead, shape (height, width, 4): red, green,
     blue and alpha (sRGB), from the top.
 
-    `product`: volume (in three dimensions), ppi (one sweep; not of a Grid), composite, cappi, section, echo-top and the
+    `product`: volume (in three dimensions), ppi (one sweep; not of a Grid), composite, cappi, section, echotop and the
     others of `stormcellar frame --help`, but no product over several volumes. `moment`: by default the grid's or the
     product's, or else REF. `settings` are further options of `frame`, such as theme="light", elevation=1.5,
     height_km=3, units="si", section=(35.2, -98.1, 35.4, -97.3) or no_labels=True. Raises Error for an option that the

@@ -11,10 +11,10 @@ import typing
 import numpy as np
 import xarray as xr
 
-from .volume import State, Volume, fixed_angle
+from .volume import State, fixed_angle, volume_of
 
 if typing.TYPE_CHECKING:
-    from .volume import Source, Words
+    from .volume import Source, Volume, Words
 
 # Our moments: name in FM 301, standard name, long name, unit. ICD 2620002; CfRadial 2.1, section 5.
 _MOMENTS = {
@@ -52,7 +52,9 @@ def open_volume(source: Volume | Source, *, moments: Words | None = None, derive
     >>> datasets["/"].attrs["scan_name"]
     'VCP-11'
     """
-    volume = source if isinstance(source, Volume) else Volume(source, moments=moments, **options)
+    if moments is not None:
+        options["moments"] = moments
+    volume = volume_of("open_volume", source, options)
     if derive:
         volume = volume.derive(derive)
     sweeps = {f"/sweep_{sweep.number}": _sweep_dataset(sweep, sort, status, packed) for sweep in volume.sweeps}

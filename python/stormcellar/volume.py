@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library, sources
-from ._library import Handle, call, sized
+from ._library import Error, Handle, call, sized
 
 if typing.TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -177,7 +177,7 @@ class Volume:
     with `time`. For a station, the last volume that began before the time is fetched from the public bucket, or from
     the address `bucket`, and a line is logged (sources.fetched). `moments` ("REF VEL", or a list) leaves out all
     other moments. `volume` is the number in a file of several volumes, from 1. Raises Error for a file that cannot be
-    read; a damaged file gives what is whole, and `problems` says what is lost.
+    read; a damaged file gives what is whole, and `problems` says what is lost or unusual.
 
     `station`, `latitude_deg`, `longitude_deg`, `altitude_m` (of the antenna), `start` (datetime64[ms]), `vcp` (None if
     unknown), `complete`, `problems` (a list of lines), `volumes` (how many the file has) and `sweeps` describe it.
@@ -258,6 +258,10 @@ class Volume:
         call("volume_derive", self._handle.pointer, _words(moments), ctypes.byref(options), ctypes.byref(pointer))
         derived = Volume.__new__(Volume)
         derived._take(pointer)
+        there = {name for sweep in derived.sweeps for name in sweep.moments}
+        for name in _words(moments).decode().split():
+            if name not in there:
+                raise Error(f"{name} cannot be derived: the volume lacks the moments that it needs", "not_found")
         return derived
 
     def to_pyart(self) -> pyart.core.Radar:
@@ -273,6 +277,20 @@ class Volume:
 
     def __repr__(self) -> str:
         return f"<Volume {self.station} {self.start}, {len(self.sweeps)} sweeps>"
+
+
+def volume_of(function, source, options, **own):
+    """Returns the volume of a source for a function of the package. `options` are further arguments for Volume; `own`
+    are those of the function. Raises TypeError for an option that Volume does not have, and for any option if the
+    source is a Volume, because it was already read."""
+    unknown = set(options) - set(Volume.__init__.__kwdefaults__)
+    if unknown:
+        raise TypeError(f"{function}() got an unexpected keyword argument '{min(unknown)}'")
+    if not isinstance(source, Volume):
+        return Volume(source, **own, **options)
+    if options:
+        raise TypeError(f"{function}() takes '{min(options)}' only with a source that is not yet a Volume")
+    return source
 
 
 def fixed_angle(sweep: Sweep) -> float:

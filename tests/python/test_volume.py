@@ -84,6 +84,21 @@ class Volumes(unittest.TestCase):
         self.assertGreater(np.nanmax(np.abs(np.rint(folds))), 0)
         self.assertNotIn("VELD", plain)
 
+    def test_a_moment_that_cannot_be_derived_is_an_error(self):
+        with self.assertRaisesRegex(stormcellar.Error, "KDP cannot be derived") as raised:
+            stormcellar.Volume(real(STORM)).derive("VELD KDP")
+        self.assertEqual(raised.exception.code, "not_found")
+
+    def test_unknown_options_are_refused(self):
+        volume = stormcellar.Volume(real(STORM))
+        for call in (stormcellar.grid, lambda source, **options: stormcellar.mosaic([source], **options),
+                     stormcellar.accuracy):
+            for source in (volume, real(STORM)):
+                with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'spacing'"):
+                    call(source, spacing=500)
+            with self.assertRaisesRegex(TypeError, "takes 'station' only with a source that is not yet a Volume"):
+                call(volume, station="KTLX")
+
     def test_threads_read_at_the_same_time(self):
         volume, failures = stormcellar.Volume(real(STORM)), []
 
