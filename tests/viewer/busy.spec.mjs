@@ -10,6 +10,12 @@ const test = base.extend({
       WebGL2RenderingContext.prototype.clientWaitSync = function (...all) {
         return window.isHeld ? TIMEOUT_EXPIRED : clientWaitSync.apply(this, all);
       };
+      const { scissor } = WebGL2RenderingContext.prototype;
+      window.strips = 0;
+      WebGL2RenderingContext.prototype.scissor = function (...all) {
+        ++window.strips;
+        return scissor.apply(this, all);
+      };
       // The rungs of all pictures, in their order.
       window.rungs = [];
       new MutationObserver(() => window.rungs.push(document.documentElement.dataset.rung)).observe(document, {
@@ -43,8 +49,10 @@ test.describe('while a fine picture is drawn', () => {
     await expect(viewer.byId('settings')).toBeVisible();
     expect(await viewer.data('drawn'), 'the picture is not complete').toBeUndefined();
     expect(await rungs(viewer)).toEqual([]);
+    await viewer.page.evaluate(() => (window.strips = 0));
     await hold(viewer, false);
     await viewer.drawn();
+    expect(await viewer.page.evaluate(() => window.strips), 'strips').toBeGreaterThan(2);
     expect(new Set(await rungs(viewer))).toEqual(new Set(['256 slices']));
   });
 
@@ -61,6 +69,15 @@ test.describe('while a fine picture is drawn', () => {
     expect(drawn.at(-1)).toBe('256 slices');
     expect(drawn.filter((rung) => rung === '256 slices')).toHaveLength(1);
   });
+});
+
+test('a change of layers gives a fine picture up', async ({ viewer, server }) => {
+  await viewer.open(`domain=${server.station}&tilt=40&zoom=6`);
+  await begin(viewer);
+  await viewer.key('v');
+  await hold(viewer, false);
+  await viewer.drawn();
+  expect((await rungs(viewer)).filter((rung) => rung === '256 slices')).toHaveLength(1);
 });
 
 test('a picture in strips is the picture that is drawn at once', async ({ viewer, server, page }) => {

@@ -98,8 +98,7 @@ export class Drawing {
         app.repeats = (pane = app.state.active) => this.panes[pane]?.layers.repeats() ?? null;
         app.on('cells', () => this.draw());
         app.on('shown', () => {
-            // Draw a fast picture first if pictures are shown faster than fine pictures can be drawn.
-            if (this.turns.stop()) this.movedAt = performance.now();
+            this.giveUp();
             this.turns.replace(() => this.show());
         });
         app.on('units', () => {
@@ -108,7 +107,7 @@ export class Drawing {
         app.on('choices', () => {
             for (const { layers } of this.panes) layers.askAgain();
         });
-        app.on('view', () => this.draw());
+        app.on('view', () => this.change());
         app.on('time', () => this.drawAtRest());
         app.on('camera', () => this.move());
         app.on('restored', () => {
@@ -122,7 +121,7 @@ export class Drawing {
             app.takeGraphics(true);
             app.showing.restore();
         });
-        window.addEventListener('resize', () => this.draw());
+        window.addEventListener('resize', () => this.change());
         // The picture of several panes leaves room for the head of the page.
         new ResizeObserver(() => this.panes.length > 1 && this.draw()).observe(picture);
     }
@@ -226,6 +225,15 @@ export class Drawing {
     move(): void {
         this.movedAt = performance.now();
         this.turns.stop();
+        this.draw();
+    }
+
+    // Gives up a fine picture. A fast one then follows, so that a busy page shows pictures, too.
+    private giveUp(): void {
+        if (this.turns.stop()) this.movedAt = performance.now();
+    }
+    private change(): void {
+        this.giveUp();
         this.draw();
     }
 
