@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { Window, flown, speedOf, takenOff, turned, withEye } from './fly';
+import { Window, flown, landed, speedOf, takenOff, turned, withEye } from './fly';
 import { Camera, Vec3, ViewGeometry, dot, minus, usualCamera } from './geometry';
 
 const view: Window = {
@@ -56,4 +56,26 @@ test('a flight begins with nearly the same picture', () => {
 
 test('a flight is fast high up and slow near the ground', () => {
     assert.ok(speedOf(withEye(camera, view, [0, 0, 60000]), view) > speedOf(withEye(camera, view, [0, 0, 3000]), view));
+});
+
+test('after a flight the camera looks at the ground of the grid, and the picture stays', () => {
+    for (const eye of [
+        [0, -50000, 40000],
+        [-100000, 20000, 9000],
+    ] as Vec3[]) {
+        const flight = withEye({ ...camera, azimuthDeg: 180 }, view, eye);
+        const down = landed(flight, view);
+        const [before, after] = [geometryOf(flight), geometryOf(down)];
+        const [east, north, height] = down.lookAtM!;
+        assert.equal(height, before.groundM);
+        const at: Vec3 = [east, north, height * view.exaggeration];
+        for (const geometry of [before, after]) {
+            const pixel = geometry.project(at)!;
+            assert.ok(Math.abs(pixel[0] - 398) < 0.01 && Math.abs(pixel[1] - 266) < 0.01);
+        }
+        const aside: Vec3 = [at[0] + 100 * before.right[0], at[1] + 100 * before.right[1], at[2]];
+        assert.ok(Math.abs(before.project(aside)![0] - after.project(aside)![0]) < 0.01);
+    }
+    const beyond = landed(withEye({ ...camera, tiltDeg: 90 }, view, [0, 900000, 5000]), view);
+    assert.ok(Math.abs(beyond.lookAtM![1]) <= view.box.halfYM);
 });

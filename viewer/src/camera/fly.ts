@@ -2,7 +2,7 @@
 // that the camera looks at until the eye is at the wanted place.
 
 import { ranges } from '../facts';
-import { Box, Camera, Vec3, ViewGeometry, minus, plus } from './geometry';
+import { Box, Camera, Vec3, ViewGeometry, dot, minus, plus } from './geometry';
 
 export interface Window {
     box: Box;
@@ -32,6 +32,26 @@ export function takenOff(camera: Camera, window: Window): Camera {
     const across = now.metersPerPixel * window.width;
     const back = across / 2 / Math.tan((flownFieldDeg * Math.PI) / 360);
     return withEye({ ...camera, fieldOfViewDeg: flownFieldDeg, zoom: 1 }, window, plus(target, -back, now.forward));
+}
+
+// Returns the camera that ends a flight. It looks at the ground in the middle of the picture, or at the edge of the grid
+// if that is beyond, so that the view then turns about a place of the grid. The place keeps its size.
+export function landed(camera: Camera, window: Window): Camera {
+    const now = geometryOf(camera, window);
+    const { halfXM, halfYM } = window.box;
+    const down = Math.max(1e-3, -now.forward[2]);
+    const way = Math.min(now.farM, (now.eye[2] - now.groundM * window.exaggeration) / down);
+    const seen = plus(now.eye, way, now.forward);
+    const clamped = (value: number, most: number) => Math.min(most, Math.max(-most, value));
+    const at: Vec3 = [clamped(seen[0], halfXM), clamped(seen[1], halfYM), now.groundM * window.exaggeration];
+    const depthM = Math.max(1000, dot(minus(at, now.eye), now.forward));
+    const usualDepthM = now.metersPerPixel * now.focalPixels; // of the point at which the camera looks
+    const zoom = (camera.zoom * usualDepthM) / depthM;
+    return {
+        ...camera,
+        zoom: Math.min(ranges.zoom.most, Math.max(ranges.zoom.least, zoom)),
+        lookAtM: [at[0], at[1], now.groundM],
+    };
 }
 
 // Turns the camera about its eye, by degrees.

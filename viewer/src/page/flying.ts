@@ -1,6 +1,6 @@
 // Lets the user fly: W, A, S and D move the eye, E and Q move it up and down, drags and arrows turn it.
 
-import { Window, flown, speedOf, takenOff, turned } from '../camera/fly';
+import { Window, flown, landed, speedOf, takenOff, turned } from '../camera/fly';
 import { App } from './app';
 import { pixelRatio } from './dom';
 import { Drawing } from './drawing';
@@ -53,6 +53,8 @@ export class FlyTool implements Tool {
         document.removeEventListener('keyup', this.up, { capture: true });
         window.removeEventListener('blur', this.lost);
         this.held.clear();
+        const view = this.window();
+        if (view) this.app.moved(landed(this.app.state.camera, view));
         this.ended();
     }
 
