@@ -31,6 +31,7 @@ const stations = stationPlaces([
 ]);
 const cities: City[] = [
     { name: 'Norman', population: 110000, place: [-97.44, 35.22] },
+    { name: 'Nunez', population: 20000, place: [-97.3, 35.4] },
     { name: 'San José', population: 340000, place: [-84.08, 9.93] },
 ];
 const names = (text: string): string[] => search(stations, cities, text).map((one) => one.station.icao);
@@ -48,8 +49,16 @@ test('a search finds stations by ICAO, by town, and near a city', () => {
     assert.deepEqual(names('Norman'), ['TOKC', 'KTLX', 'KINX']);
     const [first] = search(stations, cities, 'norman');
     assert.ok(first!.near === 'Norman' && first!.distanceM < 20000);
-    assert.equal(search(stations, cities, 'san jose').length, 3, 'accents do not matter');
+    assert.deepEqual(names('san jose'), [], 'no radar sees San José');
+    assert.deepEqual(names('nuñez'), ['KTLX', 'TOKC', 'KINX'], 'accents do not matter');
     assert.deepEqual(names('qqq'), []);
+});
+
+test('a search finds the radars near coordinates', () => {
+    assert.deepEqual(names('35.28, -97.51'), ['TOKC', 'KTLX', 'KINX']);
+    assert.deepEqual(names('33.6 -101.8'), ['KLBB', 'TOKC', 'KTLX']);
+    assert.equal(search(stations, cities, ' 35.28,-97.51')[0]!.near, '35.28,-97.51');
+    for (const text of ['95, 0', '35', '35,', '10, 10']) assert.deepEqual(names(text), []);
 });
 
 test('a pointer chooses the nearest station within reach', () => {

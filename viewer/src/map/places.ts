@@ -84,6 +84,7 @@ export interface Found {
 }
 
 const stationsOfACity = 3;
+const mostAwayM = 460_000; // radars do not see farther
 const mostCities = 4;
 
 const simple = (text: string): string =>
@@ -93,8 +94,15 @@ const simple = (text: string): string =>
         .toLowerCase()
         .trim();
 
-// Finds stations by ICAO or name, and then the nearest stations to cities whose name begins with the text. An empty
-// text finds all stations.
+// Reads latitude and longitude in degrees, as in "35.3, -97.5"; null if the text is something else.
+function coordinatesIn(text: string): Place | null {
+    const found = /^\s*(-?\d+(?:\.\d+)?)\s*[,\s]\s*(-?\d+(?:\.\d+)?)\s*$/.exec(text);
+    const [latitudeDeg, longitudeDeg] = [Number(found?.[1]), Number(found?.[2])];
+    return Math.abs(latitudeDeg) <= 90 && Math.abs(longitudeDeg) <= 180 ? { latitudeDeg, longitudeDeg } : null;
+}
+
+// Finds stations by ICAO or name, and then the nearest stations to cities whose name begins with the text, or to the
+// coordinates in the text. An empty text finds all stations.
 export function search(stations: StationPlace[], cities: City[], text: string): Found[] {
     const wanted = simple(text);
     const own = (station: StationPlace): Found => ({ station, near: null, distanceM: 0 });
@@ -111,11 +119,15 @@ export function search(stations: StationPlace[], cities: City[], text: string): 
         .sort((a, b) => a.rank - b.rank)
         .map(({ station }) => own(station));
     const found = new Map(named.map((one) => [one.station.icao, one]));
-    const ofThisName = cities.filter((city) => simple(city.name).startsWith(wanted)).slice(0, mostCities);
-    for (const city of ofThisName) {
-        const place: Place = { latitudeDeg: city.place[1], longitudeDeg: city.place[0] };
+    const coordinates = coordinatesIn(text);
+    const ofThisName = cities
+        .filter((city) => simple(city.name).startsWith(wanted))
+        .slice(0, mostCities)
+        .map(({ name, place: [longitudeDeg, latitudeDeg] }) => ({ name, place: { latitudeDeg, longitudeDeg } }));
+    for (const { name, place } of coordinates ? [{ name: text.trim(), place: coordinates }] : ofThisName) {
         stations
-            .map((station) => ({ station, near: city.name, distanceM: geodesic(place, station).distanceM }))
+            .map((station) => ({ station, near: name, distanceM: geodesic(place, station).distanceM }))
+            .filter(({ distanceM }) => distanceM <= mostAwayM)
             .sort((a, b) => a.distanceM - b.distanceM)
             .slice(0, stationsOfACity)
             .forEach((one) => {
