@@ -115,6 +115,21 @@ test('a radar that comes later is shown', async ({ viewer, relay, says, server }
   await says.nothing();
 });
 
+// 2026-11-28: the start map kept its first view, and told of new radars after half a minute.
+test('the start map takes in radars that come later', async ({ viewer, relay, server: { station, other } }, info) => {
+  info.skip(station === other, 'there is only one station');
+  relay.listed = changing(/^\/api\/v1\/stations/, ({ stations }) => ({ stations: stations.filter((one) => one.station !== other) }));
+  await viewer.goto();
+  await viewer.stationsOnMap(station);
+  relay.listed = (path, body) => body;
+  await tell(relay, 'volume_complete', { domain: 'KXXX', station: 'KXXX', moment: 'REF' });
+  await viewer.stationsOnMap(other);
+  const shown = await viewer.data('map');
+  await viewer.press('start-all');
+  await viewer.frames();
+  expect(await viewer.data('map'), 'the view is that of Fit all').toBe(shown);
+});
+
 test('a moment that comes while the stream is broken is shown', async ({ viewer, relay, says, server: { station } }) => {
   const reflectivity = (one) => ({ ...one, moments: one.moments.filter(({ moment }) => moment === 'REF') });
   relay.listed = changing(/^\/api\/v1\/domains/, ({ domains }) => ({ domains: domains.map(reflectivity) }));

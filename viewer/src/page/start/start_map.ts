@@ -28,6 +28,7 @@ import { Tiles } from './tiles';
 
 const reach = 28; // a pointer chooses a station within this many pixels
 const lookAgainAfterMs = 30_000;
+const lookSoonAfterMs = 1000; // after news of another grid
 const mostScaleAtFirst = 12_000; // so that the first view of a lone station shows its surroundings
 const toldAfterMs = 1000; // if echo takes longer to load, the page says that it is loading
 const edge = 60; // margin about the stations, in pixels
@@ -45,6 +46,8 @@ export class StartMap {
     private anchor: string | null = null; // station at which the user began a box by keys
     private isDrawing = false;
     private timer = 0;
+    private soon = 0; // timer after news
+    private isMoved = false; // the user has moved the map
     private said = '';
     private lacksSince = Infinity; // time in ms since which echo is missing; Infinity if none is missing
     boxes = false; // a drag makes a box instead of moving the map
@@ -62,7 +65,7 @@ export class StartMap {
         element('start-help').textContent = mapTexts.help;
         element('start-actions').append(
             button('start-box', mapTexts.box, () => this.toggleBoxes()),
-            button('start-all', mapTexts.all, () => this.fit()),
+            button('start-all', mapTexts.all, () => this.fitAll()),
             button('start-back', mapTexts.back, () => this.goBack()),
         );
         this.canvas.setAttribute('aria-label', mapTexts.mapLabel);
@@ -71,6 +74,10 @@ export class StartMap {
         window.addEventListener('resize', () => this.resize());
         document.addEventListener('visibilitychange', () => !this.page.hidden && void this.look());
         this.app.on('map', () => this.show(this.app.isOnMap));
+        this.app.on('choices', () => {
+            window.clearTimeout(this.soon);
+            if (!this.page.hidden) this.soon = window.setTimeout(() => void this.look(), lookSoonAfterMs);
+        });
         this.show(this.app.isOnMap);
     }
 
@@ -107,16 +114,23 @@ export class StartMap {
 
     private takeData(): void {
         if (this.page.hidden) return;
-        const view = this.view ? null : this.fit();
-        if (view) {
+        this.putList(); // before the view is fitted into the room beside the list
+        const isFirst = this.view === null;
+        // Take in stations that come later, until the user moves the map.
+        const view = this.isMoved ? null : this.fit();
+        if (view && isFirst) {
             this.base.begin(boxBetween(view, [0, 0], [view.width, view.height])).then(
                 () => this.putList(),
                 (error: unknown) => this.say(texts.failed(String(error))),
             );
         }
-        this.putList();
         this.tellChosen();
         this.draw();
+    }
+
+    private fitAll(): void {
+        this.isMoved = false;
+        this.fit();
     }
 
     // Fits the view to all mosaics and stations. A few stations on other continents would shrink the map. So if at
@@ -217,10 +231,12 @@ export class StartMap {
 
     move(dx: number, dy: number): void {
         if (this.view) this.view = draggedMap(this.view, dx, dy);
+        this.isMoved = true;
         this.draw();
     }
     zoom(factor: number, x?: number, y?: number): void {
         if (this.view) this.view = scaledMap(this.view, factor, x, y);
+        this.isMoved = true;
         this.draw();
     }
 
@@ -296,6 +312,7 @@ export class StartMap {
 
     private toggleBoxes(): void {
         this.boxes = !this.boxes;
+        this.isMoved = true; // so that the map stays where the user draws
         element('start-box').setAttribute('aria-pressed', String(this.boxes));
         this.canvas.focus();
     }
