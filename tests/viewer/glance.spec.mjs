@@ -27,6 +27,9 @@ for (const [width, height] of [[390, 844], [1440, 900]])
       await expectSeen(viewer, 'title');
       for (const id of ['mode-2d', 'play', 'speed', 'times', 'clock', 'follow', 'compass', 'scan-open', 'layers-open']) await expectSeen(viewer, id);
       await expect(viewer.byId('follow')).toHaveText(/Newest|Live|silent/);
+      if (width < 640)
+        for (const id of ['play', 'earlier', 'later', 'follow', 'open', 'layers-open', 'mode-2d'])
+          expect((await viewer.byId(id).boundingBox()).height, `height of ${id}`).toBeGreaterThanOrEqual(44);
       const [play, speed] = await Promise.all(['play', 'speed'].map((id) => viewer.byId(id).boundingBox()));
       expect(speed.x - play.x - play.width, 'pixels between Play and its speed').toBeLessThan(12);
       // Moments have their names as tooltips, and the title names the shown one.
