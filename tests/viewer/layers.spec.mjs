@@ -260,6 +260,7 @@ test.describe('layers', { tag: '@full' }, () => {
     expect(nameless, 'controls without a name').toEqual([]);
     await viewer.settled(() => viewer.resize(360, 640));
     await viewer.settled(() => viewer.press('layer-crop'));
+    for (const side of ['west', 'top']) await expect(viewer.byId(`crop-${side}-value`)).toHaveText(/\d (km|ft|mi)$/);
     const [left, right, beyond] = await viewer.byId('layers').evaluate((panel) => {
       const { left, right } = panel.getBoundingClientRect();
       return [left, right, panel.scrollWidth - panel.clientWidth];

@@ -89,7 +89,6 @@ export const panelTexts = {
     // Tracks below the slider of times.
     tracks: {
         volumes: 'VCP',
-        cutsName: 'Cuts',
         cuts: 'Cuts of the shown volume',
         isUtc: 'Times are in UTC. Press for local time.',
         isLocal: (zone: string) => `Times are local (${zone}). Press for UTC.`,

@@ -220,6 +220,7 @@ export class LayersPanel {
             labeled(
                 words.sides[side],
                 this.slider(cropSliderId(side), (value) => this.slideCrop(side, value)),
+                make('output', { id: `${cropSliderId(side)}-value` }),
             ),
         );
         return [button('crop-draw', words.draw, () => this.drawCrop()), ...sliders];
@@ -421,6 +422,7 @@ export class LayersPanel {
             for (const side of axis) {
                 const text = axis[1] === 'topM' ? heightText(crop[side], units) : distanceText(crop[side], units);
                 putSlider(cropSliderId(side), [low, high], (high - low) / 200, crop[side], text);
+                element(`${cropSliderId(side)}-value`).textContent = text;
             }
         }
     }

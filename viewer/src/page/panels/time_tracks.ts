@@ -24,6 +24,8 @@ export class TimeTracks {
     private slider = element<HTMLInputElement>('times');
     private labels = make('div', { id: 'time-labels', 'aria-hidden': 'true' });
     private volumes = make('div', { id: 'volume-track', 'aria-hidden': 'true' });
+    // The time of the volume whose cuts are shown, because cuts are not placed by the times above them.
+    private cutsName = make('span', { class: 'track-name', title: words.cuts });
     private cuts = make('div', { id: 'cut-track', role: 'group', 'aria-label': words.cuts });
     private zone = labeledButton('clock', '', '', () => this.toggleClock());
     private known: VolumeAt[] = [];
@@ -42,7 +44,7 @@ export class TimeTracks {
         element('track').append(
             this.zone,
             make('span', { class: 'track-name' }, words.volumes),
-            make('span', { class: 'track-name' }, words.cutsName),
+            this.cutsName,
             this.labels,
             this.volumes,
             this.cuts,
@@ -171,6 +173,7 @@ export class TimeTracks {
         if (shown && this.cutsOf === shown) return;
         this.cutsOf = shown;
         this.puts = [];
+        this.cutsName.textContent = shown ? this.clock.minute(Date.parse(shown.time)) : '';
         if (!shown) return this.cuts.replaceChildren();
         const [site, another] = shown.loaded.grid.sites;
         if (shown.isBetween) return this.say(panelTexts.scan.between);
