@@ -32,6 +32,7 @@ async function first(browser) {
   row('first picture, beyond its own frame', ms(pictures.map(({ beyond }) => beyond)));
   row('that frame', ms(pictures.map(({ frame }) => frame)));
   row('bytes on the wire until then', median(pictures.map(({ bytes }) => bytes)));
+  await longestTasks(browser);
 }
 
 // Turns the view, and measures the frames per second and the quality (rung) of the last frame.
@@ -51,6 +52,29 @@ async function turning({ page }) {
   const after = frames.filter(([at]) => at > frames[0][0] + 1000);
   const last = after[after.length - 1];
   row('frames a second while the view turns', `${((after.length - 1) / ((last[0] - after[0][0]) / 1000)).toFixed(1)} (${last[1]})`);
+}
+
+// Measures the longest tasks of the page when the volume fills a large window: while the page loads, while the view
+// turns, and while a fine picture is drawn. During a task, the page does not act.
+async function longestTasks(browser) {
+  const viewer = await openPage(browser, address, 1440, 900);
+  await viewer.page.addInitScript(() => {
+    window.tasks_ = [0];
+    new PerformanceObserver((list) => window.tasks_.push(...list.getEntries().map(({ duration }) => duration))).observe({ type: 'longtask' });
+  });
+  const longest = () => viewer.page.evaluate(() => Math.max(...window.tasks_.splice(0, Infinity, 0)));
+  await viewer.goto('domain=KLBB&moment=REF&tilt=40&zoom=9');
+  await viewer.drawn();
+  const found = [await longest()];
+  await viewer.page.mouse.move(700, 450);
+  await viewer.page.mouse.down();
+  for (let x = 700; x < 1000; x += 5) await viewer.page.mouse.move(x, 450);
+  found.push(await longest());
+  await viewer.page.mouse.up();
+  await viewer.drawn();
+  found.push(await longest());
+  row('longest task: loading, turning, a fine picture of', found.map((one) => `${Math.round(one)} ms`).join(', '), `${await frameMs(viewer)} ms`);
+  await viewer.page.context().close();
 }
 
 async function steps(browser) {

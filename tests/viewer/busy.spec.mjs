@@ -1,5 +1,5 @@
 // Checks that the page never freezes: a fine picture is drawn in parts, between which the page acts, and input gives
-// the picture up. bench.mjs measures the tasks.
+// the picture up.
 import { test as base, expect } from './fixtures.mjs';
 
 const test = base.extend({
