@@ -30,7 +30,9 @@ constexpr const char* gdal_translate = "/usr/bin/gdal_translate";
 grid::GridSpec spec_of(grid::Projection projection) {
     grid::GridSpec spec = small_spec(300, 8, 1500, 1000);
     spec.ny = 260;
-    return in_projection(spec, projection);
+    spec = in_projection(spec, projection);
+    if (spec.in_degrees()) spec.spacing_deg = 0.0125;  // pixels of the KMZ lie on cells
+    return spec;
 }
 
 class StillGdal : public ::testing::TestWithParam<grid::ProjectionFacts> {
