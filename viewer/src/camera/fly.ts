@@ -34,8 +34,8 @@ export function takenOff(camera: Camera, window: Window): Camera {
     return withEye({ ...camera, fieldOfViewDeg: flownFieldDeg, zoom: 1 }, window, plus(target, -back, now.forward));
 }
 
-// Returns the camera that ends a flight. It looks at the ground in the middle of the picture, or at the edge of the grid
-// if that is beyond, so that the view then turns about a place of the grid. The place keeps its size.
+// Returns the camera that ends a flight. It looks at the ground in the middle of the picture, or at the edge of the
+// grid if that place is beyond. So the view then turns about a place of the grid. The place keeps its size.
 export function landed(camera: Camera, window: Window): Camera {
     const now = geometryOf(camera, window);
     const { halfXM, halfYM } = window.box;

@@ -69,6 +69,7 @@ export class App {
     alongside: (next: Shown, isAhead: boolean) => Promise<void> | null = () => null;
     // Returns the grids that the other panes show beside `next`, the grid of the active pane.
     beside: (next: Shown) => readonly (Shown | null)[] = () => [];
+    isDrawing: () => boolean = () => false; // returns true while a picture is being drawn
     isShownWhole: () => boolean = () => true; // returns true if all layers of the picture have come
     repeats: (pane?: number) => ReturnType<LayerMaker['repeats']> = () => null;
     nextCut: CutNumber | undefined = undefined; // number of the sweep in the next picture; undefined: as in this one

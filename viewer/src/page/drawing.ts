@@ -94,7 +94,8 @@ export class Drawing {
         app.loader.besides = () => this.panes.reduce((sum, { windows }) => sum + windows.bytes, 0);
         app.alongside = (next, isAhead) => this.alongside(next, isAhead);
         app.beside = (next) => this.others.map((pane) => pane.beside(next));
-        app.isShownWhole = () => !this.turns.isBusy && this.panes.every(({ layers }) => !layers.isWaiting);
+        app.isDrawing = () => this.turns.isBusy;
+        app.isShownWhole = () => this.panes.every(({ layers }) => !layers.isWaiting);
         app.repeats = (pane = app.state.active) => this.panes[pane]?.layers.repeats() ?? null;
         app.on('cells', () => this.draw());
         app.on('shown', () => {
@@ -321,17 +322,14 @@ export class Drawing {
     }
 
     private pictureOf(frames: readonly (Frame | null)[], first: Frame): Picture {
-        if (frames.length === 1) {
-            const { width, height } = first.geometry;
-            return { width, height, panes: [{ frame: first, place: { left: 0, top: 0, width, height } }] };
-        }
         const { places } = this;
         const ratio = pixelRatio();
-        return {
-            width: Math.round(this.picture.clientWidth * ratio),
-            height: Math.round(this.picture.clientHeight * ratio),
-            panes: frames.map((frame, i) => ({ frame, place: places[i]! })),
-        };
+        const side = (pixels: number) => Math.round(pixels * ratio);
+        const all = { width: side(this.picture.clientWidth), height: side(this.picture.clientHeight) };
+        const { width, height } = frames.length === 1 ? first.geometry : all;
+        const whole = { left: 0, top: 0, width, height };
+        const placeOf = (index: number) => (frames.length === 1 ? whole : places[index]!);
+        return { width, height, panes: frames.map((frame, i) => ({ frame, place: placeOf(i) })) };
     }
 
     private async drawNow(): Promise<void> {

@@ -5,6 +5,8 @@ import { advanced, at, dwellMs, looped, nextOf, stepped } from '../time/player';
 import { App } from './app';
 import { texts } from './texts';
 
+const soonMs = 20; // playback waits for a picture that is being drawn
+
 export class Playback {
     framesASecond = 4;
     private timer = 0;
@@ -94,6 +96,7 @@ export class Playback {
     private tick(): void {
         const { app } = this;
         if (!app.player.isPlaying) return;
+        if (app.isDrawing()) return this.tickAfter(soonMs);
         const isReady = app.showing.coming === 0 && app.isShownWhole();
         const repeat = isReady ? this.nextRepeat(1) : undefined;
         if (repeat !== undefined) this.showRepeat(repeat);
@@ -119,8 +122,11 @@ export class Playback {
             this.changedAtMs = performance.now();
             void app.showing.showTime();
         }
+        this.tickAfter(1000 / this.framesASecond);
+    }
+    private tickAfter(ms: number): void {
         window.clearTimeout(this.timer);
-        this.timer = window.setTimeout(() => this.tick(), 1000 / this.framesASecond);
+        this.timer = window.setTimeout(() => this.tick(), ms);
     }
     // Sets one end of the loop to a time of the timeline.
     setLoop(end: 'from' | 'to', index = this.app.player.at): void {
