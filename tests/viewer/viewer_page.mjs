@@ -92,8 +92,10 @@ export class ViewerPage {
   turnTo(view) {
     return this.page.evaluate((hash) => void (location.hash = hash), view);
   }
-  // Carries out an act, and waits for the fine picture after it.
+  // Carries out an act, and waits for the fine picture after it. Waits first for a picture that is being drawn, because
+  // the page would otherwise finish that picture after the act.
   async settled(act) {
+    if (await this.data('frames')) await this.drawn();
     await this.page.evaluate(() => void delete document.documentElement.dataset.drawn);
     await act();
     await this.drawn();
