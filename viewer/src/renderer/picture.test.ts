@@ -4,9 +4,9 @@ import test from 'node:test';
 import { drawParts, inStrips, nextRows } from './picture';
 
 test('strips have more rows if they are fast, and fewer if they are slow', () => {
-    assert.equal(nextRows(64, 60), 64);
+    assert.equal(nextRows(64, 90), 64);
     assert.equal(nextRows(64, 1), 128);
-    assert.equal(nextRows(64, 120), 32);
+    assert.equal(nextRows(64, 180), 32);
     assert.equal(nextRows(64, 20_000), 8);
 });
 

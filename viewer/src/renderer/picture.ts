@@ -14,8 +14,8 @@ export interface Picture {
 // Yields after each part. next() takes the time that the part took, in ms.
 export type Parts = Generator<void, void, number>;
 
-const partMs = 60; // wanted time of a part
-const firstRows = 64;
+const partMs = 90; // wanted time of a part
+const firstRows = 128;
 const leastRows = 8;
 
 // Returns the rows of the next strip, after a strip of `rows` rows took `ms`.
