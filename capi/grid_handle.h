@@ -35,14 +35,15 @@ namespace stormcellar::capi {
 // Returns the moment and the threads. Errors: bad_argument.
 [[nodiscard]] Result<grid::GridderOptions> gridder_of(const stormcellar_grid_options& options);
 
-// What the options ask for in a grid of one volume.
+// The cells, the moment and the threads of a grid of one volume, and the place of its radar.
 struct VolumeGridding {
     grid::SitePosition site;
     grid::GridSpec spec;
     grid::GridderOptions gridder;
 };
 
-// Errors: those of site_of(), spec_of() and gridder_of().
+// Reads the options for a grid of one volume. Errors: those of site_of(), spec_of() and
+// gridder_of().
 [[nodiscard]] Result<VolumeGridding> gridding_of(const stormcellar_grid_options& options,
                                                  const stormcellar_volume& volume);
 

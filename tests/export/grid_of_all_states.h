@@ -9,7 +9,7 @@
 
 namespace stormcellar::testing {
 
-// The value of cell i is i / 4 where i is the number of a cell with a value.
+// Returns the grid. Each cell that has a value has a quarter of its own number as the value.
 inline grid::Grid grid_of_all_states(level2::Moment moment, int columns, int rows,
                                      std::vector<double> levels_m) {
     grid::Grid grid;

@@ -45,7 +45,7 @@ class NetcdfFile : public ::testing::Test {
     const std::filesystem::path path_ = directory_.path() / "out.nc";
 };
 
-// A test of a format of volumes, whose function `write_file` is one like write_uf().
+// A test of a format of volumes. `write_file` is the function that writes it, such as write_uf().
 template <auto write_file>
 class VolumeFile : public NetcdfFile {
   protected:
@@ -55,7 +55,7 @@ class VolumeFile : public NetcdfFile {
     }
 };
 
-// The options for volumes whose sweeps have gates at different ranges.
+// Returns the options that give sweeps with other gates a range axis of their own.
 inline VolumeWriteOptions with_all_ranges() {
     VolumeWriteOptions options;
     options.ranges = RangeAxes::of_each_geometry;

@@ -42,11 +42,12 @@ struct FoldedVolume {
     std::vector<std::vector<double>> true_mps;
 };
 
-// A velocity that looks random: each gate has another one, from -30 to 30 m/s.
+// Returns a velocity from -30 to 30 m/s that looks random, because gates side by side differ.
 [[nodiscard]] double scattered_mps(double azimuth_deg, double range_m, double elevation_deg,
                                    double height_m);
 
-// Odd volumes: one gate in each sweep, and one sweep with as many radials as a legacy radar sends.
+// Return specs of odd volumes: one gate in each sweep, and one sweep of 367 radials, as legacy
+// radars send them.
 [[nodiscard]] FoldedSpec one_gate_spec();
 [[nodiscard]] FoldedSpec one_legacy_sweep_spec();
 
