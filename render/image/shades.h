@@ -26,7 +26,7 @@ struct Shades {
     Rgba8 hatch;  // the lines over ground that was not seen
     Rgba8 haze;   // for air that was not seen
     Rgba8 border, ring;
-    Rgba8 county, state, country, coast;
+    Rgba8 county, state, country, coast, interstate, highway;
     Rgba8 casing;  // a darker or lighter edge between lines and echo
     Rgba8 city, small_city;
     Rgba8 text, quiet_text, warning_text;
@@ -47,6 +47,8 @@ inline constexpr Shades dark = {
     .state = {164, 170, 180, 235},
     .country = {200, 203, 208, 245},
     .coast = {138, 158, 182, 240},
+    .interstate = {164, 132, 104, 190},
+    .highway = {150, 126, 104, 150},
     .casing = {8, 10, 14, 90},
     .city = {232, 234, 238, 255},
     .small_city = {200, 205, 212, 255},
@@ -74,6 +76,8 @@ inline constexpr Shades light = {
     .state = {88, 90, 98, 235},
     .country = {52, 54, 60, 245},
     .coast = {58, 92, 128, 240},
+    .interstate = {146, 98, 62, 180},
+    .highway = {146, 110, 80, 140},
     .casing = {255, 255, 255, 90},
     .city = {20, 22, 28, 255},
     .small_city = {52, 56, 64, 255},

@@ -103,7 +103,7 @@ bool read_set(Reader& reader, double unit, MapSet& set) {
     set.tolerance_m = reader.number();
     const std::size_t lines = reader.count(10);
     Reader inner(reader.take(reader.number()));
-    const bool known = kind >= 1 && kind <= 5 && set.detail < map_detail_count;
+    const bool known = kind >= 1 && kind <= map_kinds.size() && set.detail < map_detail_count;
     if (reader.failed() || !known) return false;
     set.lines.resize(std::min(lines, inner.remaining()));
     for (MapLine& line : set.lines) {

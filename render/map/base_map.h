@@ -1,4 +1,4 @@
-// render/map/base_map.h -- the built-in map: coasts, borders, cities.
+// render/map/base_map.h -- the built-in map: coasts, borders, roads, cities.
 //
 // scripts/make-map-data makes the map from public-domain data (docs/data-sources.md), for the area
 // that the weather radars of the United States can see. There are three levels of detail for lines;
@@ -33,10 +33,12 @@
 //           which is 6 m.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "stormcellar/base/result.h"
@@ -44,9 +46,34 @@
 
 namespace stormcellar::render {
 
-// The numbers are part of the format, so they do not change. The kinds are in the order in which
-// they are drawn.
-enum class MapKind : std::uint8_t { county = 1, state = 2, lake = 3, country = 4, coast = 5 };
+// The numbers are part of the format, so they do not change.
+enum class MapKind : std::uint8_t {
+    county = 1,
+    state = 2,
+    lake = 3,
+    country = 4,
+    coast = 5,
+    interstate = 6,
+    highway = 7,  // a US highway
+};
+
+// A picture (of 796 x 532 pixels) shows the lines of a kind only where the usual distance between
+// them is at least `least_px`.
+struct MapKindFacts {
+    MapKind kind = MapKind::coast;
+    std::string_view name;
+    double usual_m = 0, least_px = 0;
+};
+// All kinds in the order in which they are drawn.
+inline constexpr auto map_kinds = std::to_array<MapKindFacts>({
+    {MapKind::county, "county", 45e3, 30},
+    {MapKind::highway, "highway", 33e3, 60},
+    {MapKind::interstate, "interstate", 100e3, 40},
+    {MapKind::state, "state"},
+    {MapKind::lake, "lake"},
+    {MapKind::country, "country"},
+    {MapKind::coast, "coast"},
+});
 inline constexpr int map_detail_count = 3;
 inline constexpr double map_tile_deg = 2;
 
@@ -97,6 +124,6 @@ class BaseMap {
 [[nodiscard]] std::span<const std::byte> built_in_map_bytes();
 
 // The small print under a picture that shows the map.
-inline constexpr const char* map_credit = "Map: US Census Bureau, Natural Earth";
+inline constexpr const char* map_credit = "Map: US Census Bureau, NWS, Natural Earth";
 
 }  // namespace stormcellar::render

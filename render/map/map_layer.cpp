@@ -19,8 +19,6 @@ constexpr double earth_radius_m = 6371e3;
 constexpr double most_thinned_px = 0.7;
 constexpr double most_bent_px = 0.2;
 constexpr double least_step_px = 0.3;
-constexpr double county_m = 45e3;
-constexpr double least_county_px = 30;
 // Cairo cannot represent numbers beyond this. A point that is so far away is not visible.
 constexpr double farthest_px = 1e6;
 constexpr double most_mask_cells = 4096;  // along a side
@@ -365,9 +363,8 @@ struct ShownLine {
 std::vector<ShownLine> shown_lines(const BaseMap& map, const Box& degrees, double finest_m,
                                    double scale) {
     std::vector<ShownLine> shown;
-    for (const MapKind kind :
-         {MapKind::county, MapKind::state, MapKind::lake, MapKind::country, MapKind::coast}) {
-        if (kind == MapKind::county && county_m / finest_m < least_county_px * scale) continue;
+    for (const auto& [kind, name, usual_m, least_px] : map_kinds) {
+        if (usual_m / finest_m < least_px * scale) continue;
         const MapSet* set = best_set(map, kind, most_thinned_px * finest_m);
         if (set == nullptr) continue;
         for (const MapLine& line : set->lines) {
@@ -398,6 +395,10 @@ Look look_of(MapKind kind, const Shades& shades) {
             return {0.8, shades.coast};
         case MapKind::country:
             return {1.2, shades.country};
+        case MapKind::interstate:
+            return {1.0, shades.interstate};
+        case MapKind::highway:
+            return {0.6, shades.highway};
         case MapKind::coast:
             break;
     }

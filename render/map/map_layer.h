@@ -6,8 +6,7 @@
 // 0.2 pixels where the view is finest. Lines continue beyond the grid, as far as the ground is
 // shown (render/products/ground.h). The layer uses the coarsest level of detail that is off by at
 // most 0.7 pixels, or else the finest level. A point that is less than 0.3 pixels from the previous
-// point is dropped. Counties are shown if 45 km are at least 30 pixels (in a picture of 796 x 532).
-// Points that the view cannot project are not shown.
+// point is dropped. Points that the view cannot project are not shown.
 //
 // Accuracy  1.2 pixels against the built-in map at its finest (tests/render/map_layer_test.cpp).
 //           For the accuracy of that map see docs/data-sources.md.
@@ -38,7 +37,7 @@ struct MapPlace {
 };
 
 struct MapLayer {
-    std::vector<MapStroke> strokes;  // county, state, lake, country, coast
+    std::vector<MapStroke> strokes;  // in the order of map_kinds
     std::vector<MapPlace> cities;    // inside the picture, the largest first
     WaterMask water;                 // over the ground that the picture shows
 };

@@ -5,6 +5,7 @@ import math
 import pathlib
 import struct
 
+import shapefile
 import shapely.geometry
 import shapely.ops
 
@@ -145,13 +146,37 @@ def land(directory):
 
 
 def united_states(directory):
-    """Returns the lines of counties and states."""
-    arcs, objects = topology(pathlib.Path(directory) / "counties-10m.json")
-    county, state = [], []
-    for arc, ids in sorted(owners(objects["counties"]).items()):
-        if len(ids) != 1:
-            (county if ids[0][:2] == ids[1][:2] else state).append(arcs[arc])
+    """Returns the lines of counties and states: the segments that two counties share."""
+    states = collections.defaultdict(list)  # the states of the counties on both sides of a segment
+    with shapefile.Reader(str(pathlib.Path(directory) / "cb_2016_us_county_500k.shp")) as counties:
+        for county in counties.iterShapeRecords():
+            points = [(round(lon, 6), round(lat, 6)) for lon, lat in county.shape.points]
+            starts = [*county.shape.parts, len(points)]
+            for start, end in zip(starts, starts[1:]):
+                for segment in zip(points[start:end], points[start + 1:end]):
+                    if segment[0] != segment[1]:
+                        states[tuple(sorted(segment))].append(county.record["STATEFP"])
+    shared = [(list(segment), sides) for segment, sides in states.items() if len(sides) == 2]
+    county = [segment for segment, sides in shared if sides[0] == sides[1]]
+    state = [segment for segment, sides in shared if sides[0] != sides[1]]
     return lines.joined(county), lines.joined(state)
+
+
+def roads(directory, name):
+    """Returns the lines of a map file of GEMPAK. A file has blocks of 1024 bytes; the first is an index. A block begins
+    with the number of its lines and a zero. A line has the number of its points, its box, a number that is not used,
+    and the latitude and longitude of each point. All numbers are big-endian, of 4 bytes."""
+    data = (pathlib.Path(directory) / name).read_bytes()
+    found = []
+    for block in range(1024, len(data), 1024):
+        count, _ = struct.unpack_from(">ii", data, block)
+        at = block + 8
+        for _ in range(count):
+            (points,) = struct.unpack_from(">i", data, at)
+            degrees = [round(value, 3) for value in struct.unpack_from(f">{2 * points}f", data, at + 24)]
+            found.append(list(zip(degrees[1::2], degrees[::2])))
+            at += 24 + 8 * points
+    return lines.joined([line for line in found if len(line) > 1])
 
 
 def polylines(path):
@@ -206,6 +231,7 @@ def lakes(options):
 
 
 def read_layers(options):
-    county, state = united_states(options.us_atlas)
+    county, state = united_states(options.counties)
     return {"coast": land(options.world_atlas), "country": countries(options.world_atlas),
-            "county": county, "state": state, "lake": lakes(options)}
+            "county": county, "state": state, "lake": lakes(options),
+            "interstate": roads(options.roads, "hiisus.nws"), "highway": roads(options.roads, "hiuhus.nws")}

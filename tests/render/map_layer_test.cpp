@@ -142,18 +142,23 @@ TEST(MapLayer, CoarseLinesLieOnTheFinest) {
     }
 }
 
-TEST(MapLayer, CountiesAreThereWhereTheyCanBeRead) {
+TEST(MapLayer, DenseLinesAreThereWhereTheyCanBeRead) {
     const auto map = BaseMap::built_in().value();
-    const auto has_counties = [&](double spacing_m, double scale) {
+    using enum MapKind;
+    const auto dense_kinds = [&](double spacing_m, double scale) {
         const grid::GridSpec spec =
             spec_of(Projection::azimuthal_equidistant, 35.3, -97.3, 460, spacing_m);
         const MapLayer layer = prepare_map(map, spec, flat(spec, 672, 462), scale).value();
-        return std::any_of(layer.strokes.begin(), layer.strokes.end(),
-                           [](const MapStroke& s) { return s.kind == MapKind::county; });
+        std::set<MapKind> found;
+        for (const MapStroke& stroke : layer.strokes)
+            if (stroke.kind == county || stroke.kind == highway || stroke.kind == interstate)
+                found.insert(stroke.kind);
+        return found;
     };
-    EXPECT_TRUE(has_counties(1000, 1));
-    EXPECT_FALSE(has_counties(1000, 2)) << "lines are twice as wide";
-    EXPECT_FALSE(has_counties(4000, 1));
+    EXPECT_EQ(dense_kinds(500, 1), (std::set{county, highway, interstate}));
+    EXPECT_EQ(dense_kinds(1000, 1), (std::set{county, interstate}));
+    EXPECT_EQ(dense_kinds(1000, 2), std::set{interstate}) << "lines are twice as wide";
+    EXPECT_EQ(dense_kinds(4000, 1), std::set<MapKind>{});
 }
 
 // Draws the Aleutians. Lines east and west of 180 degrees are on both sides of the middle.

@@ -71,6 +71,8 @@ TEST_P(ShadesOfTheme, LinesOfTheMapStandOutByTheirRank) {
             EXPECT_GE(drawn(shades.state), 3);
             EXPECT_GE(drawn(shades.ring), 1.5);
             EXPECT_GE(drawn(shades.county), 1.2);
+            EXPECT_GE(drawn(shades.highway), 1.2);
+            EXPECT_GE(drawn(shades.interstate), 2);
             EXPECT_GT(drawn(shades.country), drawn(shades.state));
             EXPECT_GT(drawn(shades.state), 1.5 * drawn(shades.county));
         }

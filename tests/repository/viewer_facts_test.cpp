@@ -1,6 +1,6 @@
 // Tests that viewer/src/facts.ts has the facts of the C++ tables that the page needs: moments,
-// units, projections, the usual grid, ranges of options, color files, the colors of the ground and
-// those of warnings.
+// units, projections, the usual grid, ranges of options, color files, the colors of the ground,
+// kinds of lines of the map and the colors of warnings.
 // After a change of a table, write the file with
 //   STORMCELLAR_WRITE_FACTS=1 repository_test --gtest_filter='ViewerFacts.*'
 #include <cstdlib>
@@ -20,6 +20,7 @@
 #include "render/color/moment_look.h"
 #include "render/color/pal_words.h"
 #include "render/image/shades.h"
+#include "render/map/base_map.h"
 #include "render/overlay/event_colors.h"
 #include "stormcellar/grid/grid_spec.h"
 #include "stormcellar/level2/moment.h"
@@ -155,10 +156,19 @@ std::string colors() {
     for (const auto& [name, line] :
          {std::pair{"ring", dark.ring}, std::pair{"county", dark.county},
           std::pair{"state", dark.state}, std::pair{"country", dark.country},
-          std::pair{"coast", dark.coast}, std::pair{"border", dark.border}})
+          std::pair{"coast", dark.coast}, std::pair{"interstate", dark.interstate},
+          std::pair{"highway", dark.highway}, std::pair{"border", dark.border}})
         text += fmt::format("    {}: {},\n", name, color_with_alpha(line));
     text += fmt::format("    text: {},\n    quietText: {},\n    halo: {},\n", color(dark.text),
                         color(dark.quiet_text), color_with_alpha(dark.halo));
+    return text + "} as const;\n";
+}
+
+std::string map_kinds() {
+    std::string text = "export const mapKinds = {\n";
+    for (const render::MapKindFacts& known : render::map_kinds)
+        text += fmt::format("    {}: {{ usualM: {}, leastPixels: {} }},\n", known.name,
+                            known.usual_m, known.least_px);
     return text + "} as const;\n";
 }
 
@@ -207,6 +217,10 @@ std::string facts() {
            "the halo, "
            "alpha to 255.\n" +
            colors() +
+           "\n// Kinds of lines of the map in the order in which they are drawn. Lines are shown "
+           "only "
+           "where the usual distance\n// between them is at least so many pixels.\n" +
+           map_kinds() +
            "\n// Colors of events in the map of hazards of the National Weather Service.\n" +
            event_colors();
 }

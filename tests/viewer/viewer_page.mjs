@@ -101,7 +101,12 @@ export class ViewerPage {
     await this.drawn();
   }
   drawn() {
-    return this.until(() => document.documentElement.dataset.drawn, null, patience);
+    // The counties come after the first picture, and are drawn in a second one.
+    const keyOfPicture = () => {
+      const { ground, drawn } = document.documentElement.dataset;
+      return ground === 'part' ? '' : drawn;
+    };
+    return this.until(keyOfPicture, null, patience);
   }
   // Waits until a function that runs in the page returns a truthy value, and returns this value.
   async until(condition, argument = null, timeout = 30_000) {

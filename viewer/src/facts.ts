@@ -134,10 +134,24 @@ export const dark = {
     state: [164, 170, 180, 235],
     country: [200, 203, 208, 245],
     coast: [138, 158, 182, 240],
+    interstate: [164, 132, 104, 190],
+    highway: [150, 126, 104, 150],
     border: [120, 130, 146, 255],
     text: [234, 238, 243],
     quietText: [166, 177, 192],
     halo: [8, 10, 14, 225],
+} as const;
+
+// Kinds of lines of the map in the order in which they are drawn. Lines are shown only where the usual distance
+// between them is at least so many pixels.
+export const mapKinds = {
+    county: { usualM: 45000, leastPixels: 30 },
+    highway: { usualM: 33000, leastPixels: 60 },
+    interstate: { usualM: 100000, leastPixels: 40 },
+    state: { usualM: 0, leastPixels: 0 },
+    lake: { usualM: 0, leastPixels: 0 },
+    country: { usualM: 0, leastPixels: 0 },
+    coast: { usualM: 0, leastPixels: 0 },
 } as const;
 
 // Colors of events in the map of hazards of the National Weather Service.

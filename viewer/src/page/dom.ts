@@ -1,5 +1,8 @@
 // Helps panels to find and make elements of the document.
 
+// What no picture needs is loaded so many milliseconds after a picture, so that the browser shows the picture first.
+export const afterPictureMs = 50;
+
 // eslint-disable-next-line @typescript-eslint/no-unnecessary-type-parameters -- callers name the kind of their element
 export function element<T extends HTMLElement>(id: string): T {
     return document.getElementById(id) as T;

@@ -16,7 +16,7 @@ import { PanePlace, panePlaces } from '../scene/pane_places';
 import { PaneCount, allPanes } from '../scene/panes';
 import { App, Shown } from './app';
 import { ColorBar, endsOf } from './color_bar';
-import { element, pixelRatio } from './dom';
+import { afterPictureMs, element, pixelRatio } from './dom';
 import { Ground } from './ground';
 import { LayerMaker, LayerShare } from './layer_maker';
 import { Rect } from './labels';
@@ -89,6 +89,7 @@ export class Drawing {
         readonly picture: HTMLCanvasElement,
     ) {
         renderer.prepare();
+        this.pictureFinished.push(() => window.setTimeout(() => void this.ground.complete(), afterPictureMs));
         app.loader.onPlace = (domain, place) => void this.ground.expect(domain, place);
         addSkeleton(app, this.labels, this.names.pen, (domain, place) => this.ground.expect(domain, place));
         app.loader.besides = () => this.panes.reduce((sum, { windows }) => sum + windows.bytes, 0);

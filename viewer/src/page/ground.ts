@@ -15,8 +15,11 @@ import { waterMask } from './water_mask';
 // Factor from the size of the grid to the size of the map, which is also seen beyond the grid.
 const widerThanGrid = 1.4;
 const coarseFromM = 6e5;
+// The first picture of a grid does not wait for the lines of the dense kinds.
+const firstKinds = ['interstate', 'state', 'lake', 'country', 'coast', 'city'] as const;
+const denseKinds = ['county', 'highway'] as const;
 
-async function mapAround(place: GridPlace): Promise<MapAnswer> {
+async function mapAround(place: GridPlace, kinds: typeof firstKinds | typeof denseKinds): Promise<MapAnswer> {
     const plane = planeOf(place);
     const [halfXM, halfYM] = halfWidthsM(place);
     const corners = [-1, 0, 1].flatMap((x) =>
@@ -25,23 +28,28 @@ async function mapAround(place: GridPlace): Promise<MapAnswer> {
     const box = boxAbout(plane.toPlace([0, 0]).longitudeDeg, corners);
     return map(
         { ...box, south: Math.max(-89, box.south), north: Math.min(89, box.north) },
-        halfXM > coarseFromM ? 1 : 0,
+        isCoarse(place) ? 1 : 0,
+        kinds,
     );
 }
 
+const isCoarse = (place: GridPlace): boolean => halfWidthsM(place)[0] > coarseFromM;
+
 interface MapOnPlane {
     lines: MapLines[];
+    isWhole: boolean; // the lines of all kinds have come
     water: WaterMask;
     cities: Mark[];
 }
 
 async function projectedMap(place: GridPlace): Promise<MapOnPlane> {
-    const found = await mapAround(place);
+    const found = await mapAround(place, firstKinds);
     const plane = planeOf(place);
     const [halfXM, halfYM] = halfWidthsM(place);
     const all = projected(found, plane);
     return {
         lines: mapLines(all, Math.max(halfXM, halfYM)),
+        isWhole: isCoarse(place),
         water: waterMask(
             ringsOf(all, 'coast', plane),
             ringsOf(all, 'lake', plane),
@@ -50,6 +58,11 @@ async function projectedMap(place: GridPlace): Promise<MapOnPlane> {
         ),
         cities: cityMarks(found.cities, plane, halfXM, halfYM),
     };
+}
+
+async function denseLines(place: GridPlace): Promise<MapLines[]> {
+    const found = projected(await mapAround(place, denseKinds), planeOf(place));
+    return mapLines(found, Math.max(...halfWidthsM(place)));
 }
 
 const keyOf = (domain: string, { nx, ny, spacing, centerDeg, offsetCells }: GridPlace): string =>
@@ -62,6 +75,7 @@ export class Ground {
     private shownKey = '';
     private shown: { grid: PackedGrid; found: MapOnPlane | null } | null = null;
     private isFlat = false; // the ground is that of 2D
+    private isCompleting = false; // lines of dense kinds are being loaded
 
     constructor(
         private app: App,
@@ -112,6 +126,21 @@ export class Ground {
         this.redraw();
     }
 
+    // Adds the lines of the dense kinds to a map that lacks them. If they cannot be loaded, the next call tries again.
+    async complete(): Promise<void> {
+        if (!this.shown?.found || this.shown.found.isWhole || this.isCompleting) return;
+        const { grid, found } = this.shown;
+        this.isCompleting = true;
+        const lines = await denseLines(grid).catch(() => null);
+        this.isCompleting = false;
+        if (!lines) return;
+        found.lines.unshift(...lines);
+        found.isWhole = true;
+        if (this.shown.found !== found) return;
+        this.put(this.shown.grid, found);
+        this.redraw();
+    }
+
     // Shows rings about the sites, the border of the grid in 3D, and the map if it was found.
     private put(grid: PackedGrid, found: MapOnPlane | null): void {
         this.shown = { grid, found };
@@ -122,5 +151,6 @@ export class Ground {
         this.renderer.showLines([...(found?.lines ?? []), ...lines]);
         this.renderer.showWater(found?.water ?? null);
         this.marks = [...rings.marks, ...(found?.cities ?? [])];
+        document.documentElement.dataset['ground'] = !found ? 'none' : found.isWhole ? 'whole' : 'part';
     }
 }

@@ -6,7 +6,7 @@ import { Place, halfWidthsM, planeOf } from '../earth/projection';
 import { usualGrid } from '../facts';
 import { placeOfFacts } from '../map/outline';
 import { shades } from '../renderer/shades';
-import { MapLines, ringLines } from '../scene/ground_lines';
+import { MapLines, ringLines, shownKinds } from '../scene/ground_lines';
 import { gridFacts, isRegion } from '../wire/api';
 import { titleOf } from '../wire/moments';
 import { GridPlace } from '../wire/packed_grid';
@@ -18,7 +18,9 @@ const { levels, betweenLevelsM } = usualGrid;
 const heights = { bottomM: betweenLevelsM / 2, topM: (levels + 0.5) * betweenLevelsM };
 
 function strokeLines(pen: CanvasRenderingContext2D, geometry: ViewGeometry, lines: MapLines[]): void {
+    const shown = shownKinds(geometry, 1);
     for (const { kind, segments } of lines) {
+        if (!shown.has(kind)) continue;
         const [red, green, blue, alpha] = shades[kind] as readonly number[];
         pen.strokeStyle = `rgb(${red} ${green} ${blue} / ${(alpha ?? 255) / 255})`;
         pen.beginPath();

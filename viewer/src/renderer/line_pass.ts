@@ -1,6 +1,6 @@
 // Draws lines of the map. Each segment is a strip on the ground, whose width depends on the kind of line.
 
-import { MapLines } from '../scene/ground_lines';
+import { MapLines, shownKinds } from '../scene/ground_lines';
 import { ViewGeometry } from '../camera/geometry';
 import { Graphics } from './graphics';
 import { lineProgram } from './shader_programs';
@@ -20,6 +20,8 @@ const widths: Record<MapLines['kind'], number> = {
     lake: 1,
     country: 1.6,
     coast: 1.3,
+    interstate: 1.2,
+    highway: 0.7,
     ring: 1,
     border: 1,
 };
@@ -78,14 +80,17 @@ export class LinePass {
         });
     }
 
-    // Draws all lines. The picture is shown `grain` times as wide and high, so lines are drawn that much thinner.
+    // Draws the lines that are not too dense. The picture is shown `grain` times as wide and high, so lines are drawn
+    // that much thinner.
     draw(geometry: ViewGeometry, grain: number): void {
         const { gl } = this.graphics;
         if (this.uploaded.length === 0) return;
         const program = this.graphics.use(lineProgram, geometry);
         program.float('ground', geometry.groundM * geometry.exaggeration);
         program.flag('isPerspective', geometry.isPerspective);
+        const shown = shownKinds(geometry, grain);
         for (const { lines, array, count } of this.uploaded) {
+            if (!shown.has(lines.kind)) continue;
             const rgba = shades[lines.kind];
             program.vec4('look', [rgba[0] / 255, rgba[1] / 255, rgba[2] / 255, rgba[3] / 255]);
             program.float('width', widths[lines.kind] / grain);

@@ -1,12 +1,14 @@
 // Projects lines and cities of the map onto the plane of a grid.
 
+import { ViewGeometry } from '../camera/geometry';
+import { mapKinds } from '../facts';
 import { Units, ringSpacingM } from '../tables/units';
-import { City, MapAnswer, MapLine } from '../wire/api';
+import { City, MapAnswer, MapKind, MapLine } from '../wire/api';
 import { Site } from '../wire/packed_grid';
 import { GridPlane, Plane } from '../earth/projection';
 
 export interface MapLines {
-    kind: 'county' | 'state' | 'lake' | 'country' | 'coast' | 'ring' | 'border';
+    kind: MapKind | 'ring' | 'border';
     segments: Float32Array; // x, y, x, y in meters from the middle
 }
 
@@ -71,9 +73,28 @@ export function withoutCuts(line: MapLine): [number, number][][] {
     return pieces.filter((one) => one.length > 1);
 }
 
+// Returns how many meters of ground a pixel covers in the finest part of the picture.
+function finestMetersPerPixel(geometry: ViewGeometry): number {
+    const x = 0.5 * geometry.width;
+    const widths = [0.5, 0.75, 1].map((share) => {
+        const [left, right] = [x - 1, x + 1].map((at) => geometry.ground(at, share * geometry.height));
+        return left && right ? Math.hypot(right[0] - left[0], right[1] - left[1]) / 2 : Infinity;
+    });
+    const finest = Math.min(...widths);
+    return finest > 0 && Number.isFinite(finest) ? finest : geometry.metersPerPixel;
+}
+
+// Returns the kinds of lines that are not too dense in this view. Each pixel of the view is `grain` pixels wide.
+export function shownKinds(geometry: ViewGeometry, grain: number): Set<MapLines['kind']> {
+    const finestM = finestMetersPerPixel(geometry) / grain;
+    const isShown = ({ usualM, leastPixels }: { usualM: number; leastPixels: number }) =>
+        usualM >= leastPixels * finestM;
+    const kinds = Object.entries(mapKinds).filter(([, facts]) => isShown(facts));
+    return new Set([...kinds.map(([kind]) => kind as MapKind), 'ring', 'border']);
+}
+
 export function mapLines(all: ProjectedLine[], halfM: number): MapLines[] {
-    const kinds = ['county', 'lake', 'state', 'coast', 'country'] as const;
-    return kinds.map((kind) => {
+    return (Object.keys(mapKinds) as MapKind[]).map((kind) => {
         const own = all.filter(({ line }) => line.kind === kind);
         const isDrawn = (number: number, point: number) => !isCut(own[number]!.line, point);
         return {

@@ -2,6 +2,7 @@
 //
 // Errors: an ApiError with status and text if the server refuses, and a TypeError if it does not answer.
 
+import { mapKinds } from '../facts';
 import { ColorTable } from './color_tables';
 import { isRegion, sidesOf } from './region';
 
@@ -94,8 +95,9 @@ export interface Region extends Domain {
         times: string[];
     })[];
 }
+export type MapKind = keyof typeof mapKinds;
 export interface MapLine {
-    kind: 'county' | 'state' | 'lake' | 'country' | 'coast';
+    kind: MapKind;
     is_area: boolean;
     points: [number, number][]; // longitude, latitude
 }
@@ -311,12 +313,11 @@ export function tables(): Promise<Tables> {
 export function map(
     { west, south, east, north }: { west: number; south: number; east: number; north: number },
     detail: number,
-    withCounties = detail === 0,
+    kinds: readonly (MapKind | 'city')[],
 ): Promise<MapAnswer> {
-    const kinds = withCounties ? 'county,state,lake,country,coast,city' : 'state,lake,country,coast,city';
     const side = (degrees: number) => degrees.toFixed(3);
     return told(
-        `api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds}`,
+        `api/v1/map?west=${side(west)}&south=${side(south)}&east=${side(Math.min(east, west + mostWideDeg))}&north=${side(north)}&detail=${detail}&kinds=${kinds.join()}`,
     );
 }
 

@@ -16,17 +16,6 @@ namespace {
 constexpr std::size_t most_map_points = 300'000;
 constexpr std::size_t most_cities = 2000;
 
-struct MapKindName {
-    render::MapKind kind;
-    std::string_view name;
-};
-constexpr auto map_kind_names = std::to_array<MapKindName>({
-    {render::MapKind::county, "county"},
-    {render::MapKind::state, "state"},
-    {render::MapKind::lake, "lake"},
-    {render::MapKind::country, "country"},
-    {render::MapKind::coast, "coast"},
-});
 constexpr std::string_view city_kind = "city";
 constexpr std::string_view usual_kinds = "state,lake,country,coast,city";
 
@@ -52,10 +41,11 @@ Status read_kinds(std::string_view text, MapRequest& wanted) {
             wanted.cities = true;
             continue;
         }
-        const auto known = std::ranges::find(map_kind_names, name, &MapKindName::name);
-        if (known == map_kind_names.end()) {
+        const auto known = std::ranges::find(render::map_kinds, name, &render::MapKindFacts::name);
+        if (known == render::map_kinds.end()) {
             return fail(ErrorCode::bad_argument,
-                        "kinds: county, state, lake, country, coast or city, not '{}'",
+                        "kinds: county, state, lake, country, coast, interstate, highway or city, "
+                        "not '{}'",
                         name.substr(0, 40));
         }
         if (std::ranges::find(wanted.kinds, known->kind) == wanted.kinds.end()) {
@@ -114,7 +104,8 @@ Status add_lines(const render::BaseMap& map, const MapRequest& wanted, ApiJson& 
             std::ranges::find(wanted.kinds, set.kind) == wanted.kinds.end()) {
             continue;
         }
-        const auto named = std::ranges::find(map_kind_names, set.kind, &MapKindName::kind);
+        const auto named =
+            std::ranges::find(render::map_kinds, set.kind, &render::MapKindFacts::kind);
         for (const render::MapLine& line : set.lines) {
             for (const double turn_deg : turns_deg) {
                 if (!is_seen(line, wanted.box, turn_deg)) continue;

@@ -55,8 +55,8 @@ constexpr std::array map_parameters{
     ApiParameter{"north", "degrees", ApiKind::number, true},
     ApiParameter{"detail", "0 (fine) to 2 (coarse); default 1", ApiKind::whole},
     ApiParameter{"kinds",
-                 "county, state, lake, country, coast, city, with commas; default: all "
-                 "but county"}};
+                 "county, state, lake, country, coast, interstate, highway, city, with commas; "
+                 "default: all but county, interstate and highway"}};
 
 constexpr std::array regions_parameters{
     ApiParameter{"west", "degrees", ApiKind::number, true},

@@ -1,12 +1,10 @@
 // Adds the buttons that open settings, layers and the cuts of the scan. Loads the program of panels, tools and readings
 // once the first picture is there, or when the user asks for one of them earlier.
 
-import { button, element } from '../dom';
+import { afterPictureMs, button, element } from '../dom';
 import { laterProgram } from '../later_program';
 import { texts } from '../texts';
 import type { PageParts } from './later_panels';
-
-const afterPictureMs = 50;
 
 export function addPanels(parts: PageParts): void {
     const { app, drawing, keys } = parts;
@@ -52,6 +50,5 @@ export function addPanels(parts: PageParts): void {
         });
     keys.onEarly = need;
     document.addEventListener('dragenter', need); // a file may be dropped
-    // Let the browser show the picture first.
     drawing.pictureFinished.push(() => window.setTimeout(need, afterPictureMs));
 }

@@ -5,7 +5,9 @@ import { City, map } from '../../wire/api';
 import { MapPaths, mapPaths } from './painter';
 
 const fineFromScale = 8000; // least scale of a view (pixels around the earth) for finer lines
-const finestFromScale = 24000; // least scale for counties
+const finestFromScale = 24000; // least scale for counties and roads
+const usualKinds = ['state', 'lake', 'country', 'coast', 'city'] as const;
+const finestKinds = ['county', 'highway', 'interstate', ...usualKinds] as const;
 const settledAfterMs = 250;
 const mostLatitudeDeg = 85; // limit of a box in the north and south
 
@@ -61,14 +63,14 @@ export class BaseMap {
         return (isFine && isThere(this.fine) ? this.fine : this.coarse)?.paths ?? null;
     }
 
-    private async refine(box: MapBox, withCounties: boolean): Promise<void> {
+    private async refine(box: MapBox, isFinest: boolean): Promise<void> {
         // Keep the coarse lines if the server refuses the fine lines, because there are too many.
-        const area = await this.load(box, 0, withCounties).catch(() => null);
+        const area = await this.load(box, 0, isFinest).catch(() => null);
         if (area) this.fine = area;
         if (area) this.loaded();
     }
 
-    private async load(box: MapBox, detail: number, withCounties = false): Promise<Area> {
-        return { box, detail, paths: mapPaths(await map(box, detail, withCounties)) };
+    private async load(box: MapBox, detail: number, isFinest = false): Promise<Area> {
+        return { box, detail, paths: mapPaths(await map(box, detail, isFinest ? finestKinds : usualKinds)) };
     }
 }

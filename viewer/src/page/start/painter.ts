@@ -48,6 +48,8 @@ export function mapPaths(answer: MapAnswer): MapPaths {
         areas: { land: areas('coast'), lakes: areas('lake') },
         lines: [
             { path: borders('county'), color: color(shades.county), width: 0.6 },
+            { path: borders('highway'), color: color(shades.highway), width: 0.6 },
+            { path: borders('interstate'), color: color(shades.interstate), width: 1 },
             { path: borders('lake'), color: color(shades.lake), width: 0.8 },
             { path: borders('state'), color: color([...shades.state.slice(0, 3), 150]), width: 0.9 },
             { path: borders('country'), color: color(shades.country), width: 1.2 },
