@@ -34,10 +34,13 @@ for (const [width, height] of [[390, 844], [1440, 900]])
       expect(speed.x - play.x - play.width, 'pixels between Play and its speed').toBeLessThan(12);
       // Moments have their names as tooltips, and the title names the shown one.
       for (const moment of await page.locator('#moments button').all()) await expect(moment).toHaveAttribute('title', /^[A-Z][a-z]{3,}/);
-      // The table of keys.
+      // The table of moments and keys, which a phone needs, because it shows no tooltips.
       await expectSeen(viewer, 'keys-open');
       await viewer.byId('keys-open').click();
       await expect(viewer.byId('reading').locator('.keys')).toContainText('higher, lower tilt');
+      for (const [moment, name] of [['ZDR', 'Differential reflectivity'], ['CFP', 'Clutter filter power removed']])
+        if ((await viewer.byId(`moment-${moment}`).count()) > 0)
+          await expect(viewer.byId('reading').getByRole('row', { name: `${moment} ${name}` })).toBeInViewport();
       await viewer.keep(`glance-keys-${width}`);
       await viewer.key('Escape');
       await expect(viewer.byId('reading')).toBeHidden();

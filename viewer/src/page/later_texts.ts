@@ -56,7 +56,8 @@ export const panelTexts = {
     netcdf: 'Download netCDF',
     noNetcdf: 'A merged region or an interpolated frame cannot be downloaded as netCDF.',
     close: 'Close',
-    help: 'Keys',
+    help: 'Moments and keys',
+    moments: 'Moments',
     scan: {
         title: 'Cuts of the scan',
         pattern: (vcp: number) => `Pattern ${vcp}`,
@@ -229,7 +230,7 @@ export const panelTexts = {
         save: 'Save the picture with its title and colors',
         command: 'Copy the stormcellar command that draws this view',
         netcdf: 'Get the grid as CF netCDF',
-        help: 'Show all keys (?)',
+        help: 'What REF, VEL and others mean, and all keys (?)',
     },
     near: (distance: string, azimuthDeg: number, city: string) =>
         `${distance} ${['N', 'NE', 'E', 'SE', 'S', 'SW', 'W', 'NW'][Math.round(azimuthDeg / 45) % 8]} of ${city}`,
@@ -274,7 +275,8 @@ export const panelTexts = {
         hint: (measure: 'distance' | 'area') =>
             measure === 'distance' ? 'Click both ends. Escape ends this.' : 'Click the corners. Escape ends this.',
         higher: (apartM: number, height: string) => `B is ${height} ${apartM < 0 ? 'lower' : 'higher'}`,
-        distance: (distance: string, azimuth: number, height: string) => `${distance} toward ${azimuth}°; ${height}`,
+        distance: (distance: string, azimuth: number, height: string) =>
+            [`${distance} toward ${azimuth}°`, height].filter(Boolean).join('; '),
         area: (area: string, around: string) => `${area}; perimeter ${around}`,
         flyHint: 'W A S D move, E and Q lift and sink, drag or arrows turn, Shift is faster. Escape lands.',
         profile: 'Values of the column over height',

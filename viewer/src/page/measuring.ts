@@ -15,9 +15,24 @@ import { panelTexts } from './later_texts';
 
 export type Measure = 'distance' | 'area';
 
+type End = Pick<Picked, 'place' | 'heightM'>;
+
+// Returns the place of a solid layer under a pixel, or else of the ground. The volume is translucent, so a click on it
+// does not tell which depth the user means.
+function endAt(drawing: Drawing, x: number, y: number): End | null {
+    const picked = pick(drawing, x, y, false);
+    if (picked?.layer !== 'volume') return picked;
+    const { shown } = drawing.pane;
+    const geometry = drawing.geometry();
+    const at = geometry?.ground(x + 0.5, y + 0.5);
+    return shown && geometry && at
+        ? { place: planeOf(shown.loaded.grid).toPlace(at), heightM: geometry.groundM }
+        : null;
+}
+
 export class MeasureTool implements Tool {
-    private points: Picked[] = [];
-    private ahead: Picked | null = null; // place under the pointer
+    private points: End[] = [];
+    private ahead: End | null = null; // place under the pointer
 
     constructor(
         private app: App,
@@ -30,18 +45,18 @@ export class MeasureTool implements Tool {
     }
 
     click(x: number, y: number): void {
-        const picked = pick(this.drawing, x, y, false);
-        if (!picked) return;
+        const end = endAt(this.drawing, x, y);
+        if (!end) return;
         // Begin a new distance with the third click.
         if (this.measure === 'distance' && this.points.length === 2) this.points = [];
-        this.points.push(picked);
+        this.points.push(end);
         this.ahead = null;
         this.put();
     }
     hover(x: number, y: number): void {
         const isOpen = this.points.length > 0 && !(this.measure === 'distance' && this.points.length === 2);
         if (!isOpen) return;
-        this.ahead = pick(this.drawing, x, y, false);
+        this.ahead = endAt(this.drawing, x, y);
         this.put();
     }
     end(): void {
@@ -50,7 +65,7 @@ export class MeasureTool implements Tool {
         this.ended();
     }
 
-    private get all(): Picked[] {
+    private get all(): End[] {
         return this.ahead ? [...this.points, this.ahead] : this.points;
     }
 
@@ -66,7 +81,7 @@ export class MeasureTool implements Tool {
                 panelTexts.tools.distance(
                     distanceText(distanceM, units),
                     Math.round(azimuthDeg) % 360,
-                    panelTexts.tools.higher(apartM, heightText(Math.abs(apartM), units)),
+                    apartM === 0 ? '' : panelTexts.tools.higher(apartM, heightText(Math.abs(apartM), units)),
                 ),
             );
         } else {

@@ -6,6 +6,7 @@ import { nearestTo } from '../../fields/beam_reading';
 import { legOf } from '../../earth/measure';
 import { Place, Plane, planeOf } from '../../earth/projection';
 import { Units, distanceText, heightNumber, heightText, valueText } from '../../tables/units';
+import { titleOf } from '../../wire/moments';
 import { CellState } from '../../wire/packed_grid';
 import { App, Shown } from '../app';
 import { button, element, labeledButton, leaveByEscape, make, paragraph, textScale } from '../dom';
@@ -229,7 +230,10 @@ export class Reader implements Tool {
     private showHelp(): void {
         this.clear();
         const box = element('reading');
-        const groups = panelTexts.keys.map(([title, rows]) => keyTable(title, rows));
+        const moments = this.app.domain?.moments.map(({ moment }) => [moment, titleOf(moment)] as const) ?? [];
+        const groups = [[panelTexts.moments, moments] as const, ...panelTexts.keys].map(([title, rows]) =>
+            keyTable(title, rows),
+        );
         box.replaceChildren(this.close, make('h2', {}, panelTexts.help), make('div', { class: 'keys' }, ...groups));
         box.hidden = false;
     }
