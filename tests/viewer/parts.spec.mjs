@@ -75,7 +75,8 @@ async function readByTap(viewer, place, words) {
 test.describe('a grid in parts', { tag: '@full' }, () => {
   partly('is coarse at first, says so, and then agrees with the slicer', async ({ viewer, server, parts }) => {
     const { memory, scene, view } = parts;
-    await viewer.open(view(scene));
+    await viewer.goto(view(scene));
+    await viewer.until(() => document.documentElement.dataset.drawn); // the first picture
     expect(Number(await viewer.data('missing'))).toBeGreaterThan(0);
     expect(await viewer.data('state')).toContain('coarse');
     await complete(viewer);

@@ -200,7 +200,8 @@ test.describe('around a station', { tag: '@full' }, () => {
     const from = await place();
     await page.keyboard.down('w');
     await expect.poll(async () => (await place())[1] - from[1], 'W flies northward').toBeGreaterThan(0.05);
-    await viewer.settled(() => page.keyboard.up('w'));
+    await page.keyboard.up('w');
+    await viewer.drawn();
     const [east, north] = (await place()).map((km, i) => km - from[i]);
     expect(north, 'km northward').toBeGreaterThan(0.05);
     expect(Math.abs(east), 'km aside').toBeLessThan(0.01);

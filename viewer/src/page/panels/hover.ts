@@ -31,7 +31,9 @@ export class Hover {
     ) {}
 
     begin(): void {
-        this.app.on(['choices', 'camera', 'map'], () => this.hide());
+        this.app.on(['camera', 'map'], () => this.hide());
+        // Keep the box while only the list of domains or moments changes, for example when a radar sends a volume.
+        this.app.on('choices', () => this.app.shown?.domain !== this.app.state.domain && this.hide());
         // Read each new picture, so that the box always describes the drawn picture.
         this.drawing.pictureChanged.push(() => this.timer === 0 && this.put());
         this.drawing.picture.addEventListener('pointerleave', () => this.hide());
