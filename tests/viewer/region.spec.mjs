@@ -5,7 +5,7 @@ import { shadesOf } from './pixels.mjs';
 const told = (viewer) => viewer.byId('layers-told');
 
 const test = base.extend({
-  viewport: { width: 700, height: 440 },
+  viewport: { width: 1000, height: 700 }, // the controls cover none of the sites
   sites: ({ server }, use) => use(server.stations),
   // Draws a box over the first two sites, and gives the domain of this region.
   region: async ({ viewer, server, sites: [one, other] }, use) => {
