@@ -118,3 +118,12 @@ test('the shown depths hold every visible place of the box, and not much more', 
         if (camera.zoom === 16) assert(far - near < 0.4 * (geometry.farM - geometry.nearM));
     }
 });
+
+test('only a parallel view from straight above is a map', () => {
+    const box = { halfXM: 1e5, halfYM: 1e5, bottomM: 0, topM: 1e4 };
+    const isMap = (tiltDeg: number, fieldOfViewDeg: number) =>
+        new ViewGeometry(box, { ...usualCamera, tiltDeg, fieldOfViewDeg }, 3, 400, 300).isMap;
+    assert(isMap(0, 0));
+    assert(!isMap(1, 0));
+    assert(!isMap(0, 40));
+});

@@ -100,6 +100,11 @@ export class ViewGeometry {
         return this.focalPixels > 0;
     }
 
+    // Returns true for a view from straight above, without perspective.
+    get isMap(): boolean {
+        return !this.isPerspective && this.forward[2] < -1 + flattest;
+    }
+
     private corners(lowM: number): Vec3[] {
         const all: Vec3[] = [];
         for (let i = 0; i < 8; ++i) {

@@ -230,7 +230,7 @@ export const panelTexts = {
         save: 'Save the picture with its title and colors',
         command: 'Copy the stormcellar command that draws this view',
         netcdf: 'Get the grid as CF netCDF',
-        help: 'What REF, VEL and others mean, and all keys (?)',
+        help: 'What the moments mean, and all keys (?)',
     },
     near: (distance: string, azimuthDeg: number, city: string) =>
         `${distance} ${['N', 'NE', 'E', 'SE', 'S', 'SW', 'W', 'NW'][Math.round(azimuthDeg / 45) % 8]} of ${city}`,

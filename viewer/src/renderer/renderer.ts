@@ -166,13 +166,15 @@ export class Renderer {
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (layers?.maximum) passes.drawMaximum(geometry, layers, layers.maximum);
-        if (frame.hasGround) this.lines.draw(geometry, frame.grain);
+        if (frame.hasGround && !geometry.isMap) this.lines.draw(geometry, frame.grain);
         if (layers?.air && (layers.hasHaze || layers.hasFolded))
             this.drawAir(frame, passes, uploaded, layers, layers.air);
         if (isSolid) passes.showSolids(geometry);
         if (frame.hasVolume) {
             volume.draw(frame, { endsAtSolids: isSolid, isLit: Boolean(layers?.falls) });
         }
+        // On a map, lines are over the echo, as in stills. In other views, echo stands above the ground.
+        if (frame.hasGround && geometry.isMap) this.lines.draw(geometry, frame.grain);
         if (layers?.rotation) surfaces.drawRotation(frame, layers.rotation);
     }
 
