@@ -184,6 +184,39 @@ test.describe('around a station', { tag: '@full' }, () => {
     expect(distances[0], 'echo changes no distance').toBe(distances[1]);
   });
 
+  // 2026-11-28: names of places behind a surface were drawn over it.
+  test('a surface hides the names of places behind it', async ({ page, viewer, server: { station } }) => {
+    await page.evaluate(() => {
+      const own = CanvasRenderingContext2D.prototype.fillText;
+      window.written = {};
+      CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+        const { a } = this.getTransform();
+        if (this.canvas.id === 'labels' && /^[A-Z][a-z]/.test(text)) window.written[text] = [(x * a) / devicePixelRatio - 7, (y * a) / devicePixelRatio];
+        own.call(this, text, x, y);
+      };
+    });
+    const view = `domain=${station}&moment=REF&azimuth=200&tilt=70&zoom=1.5&field-of-view=40&look-at-km=0,0,4&volume=0`;
+    const names = {};
+    for (const surface of ['', '&surface=20']) {
+      await page.evaluate(() => void (window.written = {}));
+      await viewer.show(view + surface);
+      names[surface] = await page.evaluate(() => window.written);
+    }
+    let [hidden, off] = [0, 0];
+    for (const [name, at] of Object.entries(names[''])) {
+      await viewer.byId('hover').evaluate((one) => void (one.hidden = true));
+      await viewer.hover(at.map(Math.round));
+      await expect(viewer.byId('hover')).toBeVisible();
+      const isBehind = /surface/.test(await viewer.byId('hover').innerText());
+      if (isBehind) ++hidden;
+      if (isBehind === Object.hasOwn(names['&surface=20'], name)) ++off;
+    }
+    report(`of ${Object.keys(names['']).length} names ${hidden} are behind the surface; ${off} are not as they should be`);
+    expect(hidden, 'names behind the surface').toBeGreaterThan(0);
+    expect(Object.keys(names['&surface=20']).length, 'names that remain').toBeGreaterThan(1);
+    expect(off, 'names that are drawn though hidden, or the other way round').toBeLessThanOrEqual(1);
+  });
+
   test('the raw volume has a link', async ({ page, viewer, server: { station } }) => {
     await viewer.press('raw');
     const raw = await page.locator('#tool-says a').evaluate((link) => link.href);

@@ -187,6 +187,10 @@ export class Drawing {
         void this.ground.show(shown);
     }
 
+    // Draws no names of places for which `isHidden` returns true.
+    hideNames(isHidden: NamesOver['isHidden']): void {
+        this.names.isHidden = isHidden;
+    }
     // Adds marks that are drawn over each pane.
     addOverlay(overlay: Overlay): void {
         this.names.overlays.push(overlay);

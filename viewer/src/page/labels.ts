@@ -46,14 +46,15 @@ interface PlacedMark {
     rect: Rect;
 }
 
-// Places marks where they have room. A pixel of the pen is `ratio` pixels of the picture wide. `taken` are rectangles
-// without room, in pixels of the pen.
+// Places marks where they have room and are not hidden. A pixel of the pen is `ratio` pixels of the picture wide.
+// `taken` are rectangles without room, in pixels of the pen.
 export function placeLabels(
     pen: CanvasRenderingContext2D,
     geometry: ViewGeometry,
     marks: Mark[],
     taken: Rect[],
     ratio: number,
+    isHidden: (at: Plane) => boolean = () => false,
 ): PlacedMark[] {
     const { width, height } = geometry;
     const full = [...taken];
@@ -71,6 +72,7 @@ export function placeLabels(
         const left = mark.kind === 'ring' ? x - wide / 2 : x + 7;
         const rect: Rect = { left: Math.min(left, x - 4) - 2, top: y - 9, right: left + wide + 3, bottom: y + 9 };
         if (rect.right > width / ratio || full.some((other) => overlaps(rect, other))) continue;
+        if (isHidden(mark.at)) continue;
         full.push(rect);
         if (mark.kind === 'city') ++cities;
         placed.push({ mark, x, y, left, rect });

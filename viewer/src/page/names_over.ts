@@ -1,5 +1,7 @@
 // Draws over the picture: the scale of heights, names and marks of tools over each pane, and compass and scale once.
 
+import { ViewGeometry } from '../camera/geometry';
+import { Plane } from '../earth/projection';
 import { Mark } from '../scene/ground_lines';
 import { element, pixelRatio, textScale } from './dom';
 import type { Drawing, Overlay } from './drawing';
@@ -12,6 +14,8 @@ const covering = 'header, footer, section, #bar, #legend, #compass, #reset-view,
 export class NamesOver {
     readonly overlays: Overlay[] = []; // drawn over each pane
     readonly furniture: Overlay[] = []; // drawn once
+    // Returns true if something hides a place on the ground, whose name is then not drawn.
+    isHidden: (pane: Pane, geometry: ViewGeometry, at: Plane) => boolean = () => false;
     private canvas = element<HTMLCanvasElement>('labels');
     // Let the browser paint on the processor if there is no graphics processor, because that is faster then.
     readonly pen = this.canvas.getContext('2d', { willReadFrequently: this.drawing.renderer.isSoftware })!;
@@ -84,7 +88,8 @@ export class NamesOver {
         const named = placeLabels(pen, geometry, sites, taken, grain);
         taken.push(...named.map(({ rect }) => rect));
         taken.push(...(drawing.shapes?.draw(pen, geometry, taken, grain) ?? []));
-        drawLabels(pen, [...named, ...placeLabels(pen, geometry, others, taken, grain)]);
+        const isHidden = (at: Plane) => this.isHidden(pane, geometry, at);
+        drawLabels(pen, [...named, ...placeLabels(pen, geometry, others, taken, grain, isHidden)]);
         pen.restore();
         for (const overlay of this.overlays) {
             pen.save();

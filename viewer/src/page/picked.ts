@@ -1,7 +1,7 @@
 // Finds the layer that a pixel of the picture mostly shows, and reads it.
 
 import { boundsAbout } from '../atlas/window_choice';
-import { ViewGeometry } from '../camera/geometry';
+import { Vec3, ViewGeometry } from '../camera/geometry';
 import { Ray } from '../camera/ray';
 import { croppedBox, Crop } from '../scene/layers';
 import { firstVisible, mostVisible, wayWithin } from '../scene/first_visible';
@@ -156,10 +156,25 @@ function groundOn({ ray, grid, cells, whole }: Sight, ground: Plane, foldedM: nu
     return found('ground', ground, groundM, lowest?.state ?? null, lowest?.value);
 }
 
-// Returns what a pixel of a pane, usually of the active one, shows; null for the sky, or if nothing is shown.
-// For a grid
-// in parts, asks for the cells along the ray if `asks` is true. Until these have come, leaves out the volume and the
-// surface.
+// Returns true if a section or a surface hides a place on the ground. The surface of a grid in parts hides nothing.
+export function isHidden(pane: Pane, geometry: ViewGeometry, at: Plane): boolean {
+    const { shown, shownTable: table, drawn } = pane;
+    const whole = wholeBox(pane);
+    if (!shown || !table || !whole || !(drawn?.section ?? drawn?.surface)) return false;
+    const point: Vec3 = [...at, geometry.groundM * geometry.exaggeration];
+    const pixel = geometry.project(point);
+    if (!pixel) return false;
+    const { grid, stream } = shown.loaded;
+    const cells = stream ? null : pane.windows.ray(shown.loaded, [at]);
+    const met = solidsOn({ ray: new Ray(geometry, ...pixel), grid, table, cells, whole, ground: at }, pane);
+    const hides = ({ layer, hit, isSolid }: Met) =>
+        isSolid && (layer === 'section' || layer === 'surface') && hit.depth < geometry.depthOf(point);
+    return met.some(hides);
+}
+
+// Returns what a pixel of a pane, usually of the active one, shows; null for the sky, or if nothing is shown. For a
+// grid in parts, asks for the cells along the ray if `asks` is true. Until these have come, leaves out the volume and
+// the surface.
 export function pick(drawing: Drawing, left: number, top: number, asks: boolean, pane = drawing.pane): Picked | null {
     const [x, y] = [left + 0.5, top + 0.5]; // middle of the pixel
     const geometry = drawing.geometry(1, pane);

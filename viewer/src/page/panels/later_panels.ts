@@ -7,6 +7,7 @@ import { Drawing } from '../drawing';
 import { FactsOfShown } from '../facts_of_shown';
 import { Keys } from '../keys';
 import { panelTexts } from '../later_texts';
+import { isHidden } from '../picked';
 import { Pointers } from '../pointers';
 import { TableEditing } from '../table_editing';
 import { addEditor } from './edit_colors';
@@ -42,6 +43,7 @@ export function begin({ app, drawing, facts, keys, pointers }: PageParts): void 
     const hover = new Hover(app, drawing, facts, heads);
     const reader = new Reader(app, drawing, hover);
     const editing = new TableEditing(app);
+    drawing.hideNames(isHidden);
     addLook(app, drawing, keys, editing);
     addUnits(app);
     addShare(app, drawing, editing, facts);
