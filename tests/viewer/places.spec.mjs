@@ -46,6 +46,17 @@ test.describe('the map of stations', { tag: '@full' }, () => {
     expect((await places(viewer)).size, 'stations after going back').toBeGreaterThanOrEqual(stations.length);
   });
 
+  test('explains the colors of its echo', async ({ viewer, map }) => {
+    const legend = viewer.byId('start-legend');
+    await expect(legend).toContainText(/Reflectivity -?\d+\d+ dBZ.*not seen.*Newest echo of each radar/s);
+    await expect(legend.locator('.unseen')).toBeInViewport();
+    const colors = await legend.locator('canvas').evaluate((bar) => {
+      const { data } = bar.getContext('2d').getImageData(0, 0, bar.width, 1);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+    expect(colors, 'colors of the bar').toBeGreaterThan(8);
+  });
+
   test('moves and zooms', async ({ viewer, server: { station }, map }) => {
     const [x, y] = (await places(viewer)).get(station);
     await viewer.drag([500, 300], [30, 20]);

@@ -355,6 +355,11 @@ export const mapTexts = {
     mosaic: 'several sites',
     merging: (sites: string[]) => `Merging ${sites.join(', ')}`,
     nothing: 'no data',
+    legend: {
+        reflectivity: 'Reflectivity',
+        unseen: 'not seen',
+        newest: 'Newest echo of each radar; the list tells when.',
+    },
     unpictured: (count: number) =>
         `The echo of ${count === 1 ? '1 more radar' : `${count} more radars`} is not drawn here.`,
     lacksEcho: 'Some of the echo is not loaded yet.',

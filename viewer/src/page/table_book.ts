@@ -29,13 +29,14 @@ export class TableBook {
         const unit = own.find((table) => table.name === this.tables.usual[moment])?.unit;
         return own.filter((table) => table.unit === unit);
     }
+    // Returns the server's usual table of a moment, which its tiles have.
+    usualOf(moment: string): ColorTable | undefined {
+        return this.presets(moment).find((table) => table.name === this.tables.usual[moment]);
+    }
     preset(moment: string, name: string): ColorTable | undefined {
         const presets = this.presets(moment);
         const usual = name === '' && moment === 'REF' && this.isClearAir ? colorFiles.clearAir : name;
-        return (
-            presets.find((table) => table.name === usual) ??
-            presets.find((table) => table.name === this.tables.usual[moment])
-        );
+        return presets.find((table) => table.name === usual) ?? this.usualOf(moment);
     }
 
     // Returns the table of a moment in a view. The same draft always gives the same object.

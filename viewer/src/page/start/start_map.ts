@@ -20,6 +20,7 @@ import { Rect } from '../labels';
 import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
 import { BaseMap } from './base_map';
+import { mapLegend } from './map_legend';
 import { MapPointers } from './map_pointers';
 import { Outline, StartScene, paint, pixelsOf } from './painter';
 import { PlaceList, ListedPlace, agedText, listedStation } from './place_list';
@@ -99,6 +100,12 @@ export class StartMap {
         this.draw();
     }
 
+    private putLegend(): void {
+        const box = element('start-legend');
+        const table = this.app.book?.usualOf('REF');
+        if (table && !box.hasChildNodes()) box.append(...mapLegend(table));
+    }
+
     private async look(): Promise<void> {
         if (document.hidden) return;
         try {
@@ -114,6 +121,7 @@ export class StartMap {
 
     private takeData(): void {
         if (this.page.hidden) return;
+        this.putLegend();
         this.putList(); // before the view is fitted into the room beside the list
         const isFirst = this.view === null;
         // Take in stations that come later, until the user moves the map.
