@@ -20,7 +20,7 @@ import { Rect } from '../labels';
 import { mapTexts } from '../later_texts';
 import { texts } from '../texts';
 import { BaseMap } from './base_map';
-import { mapLegend } from './map_legend';
+import { mapLegend } from '../map_legend';
 import { MapPointers } from './map_pointers';
 import { Outline, StartScene, paint, pixelsOf } from './painter';
 import { PlaceList, ListedPlace, agedText, listedStation } from './place_list';

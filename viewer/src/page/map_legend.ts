@@ -1,9 +1,9 @@
 // Explains the colors of echo on the map of all stations, and how old the echo is.
 
-import { colorOf } from '../../tables/color_table';
-import { ColorTable } from '../../wire/color_tables';
-import { make } from '../dom';
-import { mapTexts } from '../later_texts';
+import { colorOf } from '../tables/color_table';
+import { ColorTable } from '../wire/color_tables';
+import { make } from './dom';
+import { mapTexts } from './later_texts';
 
 const barPixels = 160;
 
