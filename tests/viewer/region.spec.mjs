@@ -83,7 +83,7 @@ test('a region has links to raw volumes, but no file and no command', async ({ p
   await viewer.press('netcdf');
   expect(await viewer.data('state')).toContain('cannot be downloaded');
   await viewer.press('command');
-  expect(await viewer.data('state')).toContain('No command');
+  expect(await viewer.data('state')).toContain('The command line cannot draw');
   await expect(viewer.byId('command')).toHaveAttribute('aria-disabled', 'true');
 });
 

@@ -103,7 +103,7 @@ test.describe('sharing', { tag: '@full' }, () => {
     await viewer.until(() => document.documentElement.dataset.drawn?.includes('/VEL/'), null, 60_000);
     // 2026-11-28: the command drew range-folded air as clear.
     await viewer.press('command');
-    await expect(state(viewer), 'a veil has no command').toContainText('veil');
+    await expect(state(viewer), 'a veil has no command').toContainText('range-folded air');
     expect(await copied(page)).toBeNull();
     // 2026-11-29: the button was still marked for the previous picture.
     const button = viewer.byId('command');

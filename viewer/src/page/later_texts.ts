@@ -27,25 +27,25 @@ export const panelTexts = {
     command: 'Copy command line',
     commandCopied: 'The command is in the clipboard.',
     commandReads: (raw: string) => `It reads ${raw}. Download Level II gets that file.`,
-    commandReadsCache: 'It reads the cache of this server.',
+    commandReadsCache: 'Run it on the server, whose cache it reads.',
     commandColors: (name: string) => `Its colors are in ${name}, which the page saved.`,
-    commandOverlays: 'Name the files of overlays in --overlay.',
-    commandFlat: 'It draws the layer as a map of the grid.',
+    commandOverlays: 'Add the files of overlays with --overlay.',
+    commandFlat: 'It draws the layer as a map.',
     noCommand: {
         nothing: 'There is no picture yet.',
         coming: 'The picture is not complete yet.',
-        region: 'No command draws a merged region.',
-        name: 'The name of this domain has characters that a terminal obeys.',
-        between: 'No command draws an interpolated frame.',
-        ground: 'No command draws echo without the ground.',
-        surface: 'No command draws a surface. Hide it to copy one.',
-        box: 'No command cuts the volume to a box. Remove the box to copy one.',
-        haze: 'No command draws haze or the veil without the volume.',
-        mosaic: 'No command draws a sweep of a mosaic. Choose its radar to copy one.',
+        region: 'The command line cannot draw a merged area.',
+        name: 'The name of this radar has characters that a terminal does not take literally.',
+        between: 'The command line cannot draw interpolated frames.',
+        ground: 'The command line cannot leave out the ground.',
+        surface: 'The command line cannot draw an isosurface. Hide it first.',
+        box: 'The command line has no clip box. Remove it first.',
+        haze: 'The command line draws unseen or range-folded air only with the volume.',
+        mosaic: 'The command line cannot draw a tilt of a merged area. Choose its radar first.',
         noSweep: 'No sweep is shown.',
-        veil: 'No command draws the veil of range-folded air. Switch it off to copy one.',
-        limits: 'No command draws this view: its perspective, height, section or size is beyond the limits.',
-        several: 'A command draws one layer. Hide the others to copy one.',
+        veil: 'The command line cannot draw range-folded air in the volume. Hide it first.',
+        limits: 'The perspective, height, section or size of this view is beyond the limits of the command line.',
+        several: 'The command line draws one layer. Hide the others first.',
         none: 'No layer is shown.',
     },
     loopEnds: { from: 'Begin of the loop', to: 'End of the loop' },
@@ -369,13 +369,13 @@ export const mapTexts = {
     from: (km: number, city: string) => `${km} km from ${city}`,
     boxed: (sites: string[]) =>
         sites.length === 0
-            ? 'No site with grids is in the box.'
-            : `${sites.length === 1 ? '1 site' : `${sites.length} sites`} in the box: ${sites.join(', ')}. Others that reach it are merged too.`,
+            ? 'No radar with data in this area.'
+            : `${sites.length === 1 ? '1 radar' : `${sites.length} radars`} in this area: ${sites.join(', ')}. Others that reach it are merged too.`,
     card: (domain: string, name: string, told: string | null, moments: string[], strongest: number | null) =>
         [
             name ? `${domain}, ${name}` : domain,
             told ?? 'no data',
-            moments.length === 0 ? 'no grids' : moments.join(' '),
+            moments.length === 0 ? 'no pictures' : moments.join(' '),
             strongest === null ? '' : `strongest echo ${Math.round(strongest)} dBZ`,
         ]
             .filter(Boolean)

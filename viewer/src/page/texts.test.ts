@@ -38,11 +38,11 @@ test("the page gives the server's reason for each site that is left out (2026-11
 test('the page does not say that a grid is loading if the grid is gone (2026-11-28: the page said so)', () => {
     assert.equal(
         texts.detail({ coarsest: 2, missing: 3, isGone: true }),
-        'coarse: greatest of 4 x 4 cells, finer ones are gone',
+        'coarse: greatest of 4 x 4 cells; finer cells are no longer there',
     );
     assert.equal(
         texts.detail({ coarsest: 1, missing: 3, isGone: false }),
-        'coarse: greatest of 2 x 2 cells, finer ones are loading',
+        'coarse: greatest of 2 x 2 cells; finer cells are loading',
     );
     assert.equal(texts.detail({ coarsest: 0, missing: 0, isGone: true }), '');
 });

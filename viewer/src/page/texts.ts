@@ -152,7 +152,7 @@ export const texts = {
     detailOfLayers: (halvings: number) => (halvings > 0 ? `layers: ${greatestOf(halvings)}` : ''),
     detail: ({ coarsest, missing, isGone }: { coarsest: number; missing: number; isGone: boolean }) => {
         const cells = coarsest > 0 ? greatestOf(coarsest) : '';
-        return missing > 0 ? `coarse: ${cells}, finer ones are ${isGone ? 'gone' : 'loading'}` : cells;
+        return missing > 0 ? `coarse: ${cells}; finer cells are ${isGone ? 'no longer there' : 'loading'}` : cells;
     },
     drawn: (ms: number, how: { name: string; dE: number }, fetches: number | null) =>
         `Drawn in ${ms} ms: ${how.name}, color error ${how.dE}${fetches === null ? '' : `, ${fetches.toFixed(1)} texels a pixel`}`,
@@ -183,7 +183,7 @@ export const texts = {
         cut: (elevation: string, time: string, kind: string) => [`${elevation}°`, time, kind].filter(Boolean).join(' '),
         kinds: { surveillance: 'long range', doppler: 'Doppler' },
         beyond: 'beyond the grid',
-        otherCells: 'not shown: its grid has other cells',
+        otherCells: 'not shown: its grid does not match',
         otherComes: 'loading',
         noOther: (moment: string) => `not shown: no ${moment} for this time`,
         otherFailed: (moment: string) => `not shown: ${moment} could not be loaded`,
